@@ -16,7 +16,7 @@
 #include "risorius/solve/sparse_cholesky.h"
 #include "risorius/tissue/skin_sheet.h"
 #include "risorius/tissue/tet_solid.h"
-#include "risorius/tissue/tethers.h"
+#include "risorius/tissue/zero_length_springs.h"
 
 namespace {
 
@@ -32,7 +32,7 @@ struct Patch {
     Eigen::VectorXd mass, activation;
     std::unique_ptr<tissue::TetSolid> solid;
     std::unique_ptr<tissue::SkinSheet> sheet;
-    std::unique_ptr<tissue::ZeroLengthSprings> tethers;
+    std::unique_ptr<tissue::ZeroLengthSprings> springs;
     std::unique_ptr<muscle::FibreSet> fibres;
     std::unique_ptr<solve::SparseCholesky> metric;
 
@@ -85,14 +85,14 @@ struct Patch {
         mass = solid->lumped_mass(1000.0, static_cast<int>(rest.rows()));
 
         // Deep nodes slide over bone; a rim is held firmly
-        std::vector<tissue::ZeroLengthSprings::Tether> held;
+        std::vector<tissue::ZeroLengthSprings::Spring> held;
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i) {
                 const bool rim = i == 0 || j == 0 || i == n - 1 || j == n - 1;
                 held.push_back({at(i, j, 0), rest.row(at(i, j, 0)).transpose(), Vec3::UnitZ(), 5.0,
                                 rim ? 5.0 : 0.3});
             }
-        tethers = std::make_unique<tissue::ZeroLengthSprings>(held);
+        springs = std::make_unique<tissue::ZeroLengthSprings>(held);
 
         // 180 fibres of 10 segments through the middle layer, in 20 groups
         std::mt19937 random(1);
@@ -134,7 +134,7 @@ struct Patch {
         solid->add_metric(builder);
         solid->add_laplacian(builder, 0.02 / kStep);
         sheet->add_metric(builder);
-        tethers->add_metric(builder);
+        springs->add_metric(builder);
         fibres->add_metric(builder);
         for (Eigen::Index i = 0; i < mass.size(); ++i)
             builder.add_diagonal(static_cast<int>(i), mass[i] / (kStep * kStep));
@@ -143,7 +143,7 @@ struct Patch {
     double energy(const Points& at_x, Points& gradient) const {
         gradient.setZero();
         return solid->add_energy(at_x, gradient) + sheet->add_energy(at_x, gradient) +
-               tethers->add_energy(at_x, gradient) + fibres->add_energy(at_x, activation, gradient);
+               springs->add_energy(at_x, gradient) + fibres->add_energy(at_x, activation, gradient);
     }
 };
 
@@ -166,8 +166,8 @@ void BM_Skin(benchmark::State& state) {
     time_term(state, [](const Points& x, Points& g) { return patch().sheet->add_energy(x, g); });
     state.counters["hinges"] = patch().sheet->hinge_count();
 }
-void BM_Tethers(benchmark::State& state) {
-    time_term(state, [](const Points& x, Points& g) { return patch().tethers->add_energy(x, g); });
+void BM_ZeroLengthSprings(benchmark::State& state) {
+    time_term(state, [](const Points& x, Points& g) { return patch().springs->add_energy(x, g); });
 }
 void BM_Fibres(benchmark::State& state) {
     time_term(state, [](const Points& x, Points& g) {
@@ -226,7 +226,7 @@ void BM_Frame(benchmark::State& state) {
 
 BENCHMARK(BM_Tets)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_Skin)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_Tethers)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_ZeroLengthSprings)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_Fibres)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_FibresAllActive)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_AllTerms)->Unit(benchmark::kMillisecond);

@@ -61,7 +61,8 @@ TEST(LowRank, WhatIsThereAlreadyIsRightIsLeftAloneAndWhatFramesLackIsLearnt) {
     // Twice as much: d + k (r - k d) / (k^2 + p), with k = 1/2, r = d and p = 1/4
     const PlayedFrame lacks{half, found[0].field};
     EXPECT_LT(
-        (played(low_rank(found, {lacks}, kRest, kArea, {.price = 0.25, .fade = kNoFade}), whole) -
+        (played(low_rank(found, {lacks}, kRest, kArea, {.ridge_weight = 0.25, .fade = kNoFade}),
+                whole) -
          1.5 * found[0].field)
             .cwiseAbs()
             .maxCoeff(),
@@ -69,8 +70,8 @@ TEST(LowRank, WhatIsThereAlreadyIsRightIsLeftAloneAndWhatFramesLackIsLearnt) {
     // Also where no driver moved anything before
     PlayedFrame elsewhere{half, Points::Zero(20, 3)};
     elsewhere.left(15, 2) = 1e-3;
-    const Points learnt =
-        played(low_rank(found, {elsewhere}, kRest, kArea, {.price = 0.25, .fade = kNoFade}), whole);
+    const Points learnt = played(
+        low_rank(found, {elsewhere}, kRest, kArea, {.ridge_weight = 0.25, .fade = kNoFade}), whole);
     EXPECT_NEAR(learnt(15, 2), 1e-3, 1e-12);
     EXPECT_NEAR(learnt(0, 1), 0.5e-3, 1e-12);
 }

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "risorius/blendshapes/detail/blend_shape_player.h"
+#include "risorius/blendshapes/detail/packed_shapes.h"
 #include "risorius/blendshapes/detail/shape_measures.h"
 
 namespace risorius::blendshapes {
@@ -91,7 +91,7 @@ TEST(ShapeMeasures, StretchIsThatOfTheDeformationWhicheverWayItTurns) {
     EXPECT_NEAR(stretch_of(triangles, rest, rest).max, 1, 1e-12);
 }
 
-TEST(BlendShapePlayer, MovesVerticesAsTheLinearRigDoes) {
+TEST(PackedShapes, MovesVerticesAsTheLinearRigDoes) {
     const Points at = row_of(301);
     BlendShapeRig rig;
     for (const double centre_m : {-0.05, 0.0, 0.04}) {
@@ -102,7 +102,7 @@ TEST(BlendShapePlayer, MovesVerticesAsTheLinearRigDoes) {
     }
     rig.drivers.push_back({"a*b", {0, 1}});
     rig.correctives.push_back({"c", rig.shapes[1], Eigen::VectorXd::Constant(1, -0.7)});
-    const BlendShapePlayer played(rig);
+    const PackedShapes played(rig);
     for (const Eigen::Vector3d& weights :
          {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.3, 0.8, 0), Eigen::Vector3d(1, 1, 1)}) {
         Points wanted = at, got = at;

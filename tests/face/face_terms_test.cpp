@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A force that is new to the face: added to its list of energy terms, it acts as its law says.
+// A force that is new to the face: added to its list of energy terms, it acts as its law says. A force on the mandible is one class.
+#include "risorius/face/solver/detail/face_terms.h"
+
 #include "face/adult_face.h"
 #include "force_term_checks.h"
 #include "message_of.h"
@@ -192,6 +194,86 @@ TEST(FaceTerms, WrongNamesAndDrivesAreRefused) {
     wrong = with_muscle("risorius", std::nan(""));
     EXPECT_EQ(message_of([&] { face.start([&](double) { return wrong; }); }),
               "drive: excitation: expected finite numbers, found NaN or infinity");
+}
+
+constexpr double kStiffness_n_per_m = 40;
+
+// A spring between node 0 and a point of the mandible.
+class Rope : public FaceTerm {
+  public:
+    explicit Rope(const Vec3& rest) : rest_(rest), end_(rest) {}
+    double add_potential(const solve::ImplicitStep&, const Points& x,
+                         Points& gradient) const override {
+        const Vec3 off = x.row(0).transpose() - end_;
+        gradient.row(0) += kStiffness_n_per_m * off.transpose();
+        return 0.5 * kStiffness_n_per_m * off.squaredNorm();
+    }
+    void add_hessian(const solve::ImplicitStep&, const Points&, solve::Curvature,
+                     solve::HessianBuilder&) const override {}
+    void add_metric(double, solve::MetricBuilder&) const override {}
+    void set_boundary_conditions(const BoundaryState& boundary) override {
+        move_mandible(boundary.mandible);
+    }
+    void move_mandible(const Rigid& mandible) override { end_ = mandible * rest_; }
+    void add_mandible_gradient(const Rigid&, const Points& x, const Points&,
+                               Wrench& sum) const override {
+        sum.add(-kStiffness_n_per_m * (x.row(0).transpose() - end_), end_);
+    }
+
+  private:
+    Vec3 rest_, end_;
+};
+
+// An energy that knows nothing of the mandible.
+class Weight : public solve::EnergyTerm {
+  public:
+    double add_potential(const solve::ImplicitStep&, const Points& x,
+                         Points& gradient) const override {
+        gradient(0, 1) += 0.3;
+        return 0.3 * x(0, 1);
+    }
+    void add_hessian(const solve::ImplicitStep&, const Points&, solve::Curvature,
+                     solve::HessianBuilder&) const override {}
+    void add_metric(double, solve::MetricBuilder&) const override {}
+};
+
+TEST(MandibleTerms, ForceOnTheMandibleIsTheSlopeOfTheEnergyByItsMotion) {
+    FaceTerms terms;
+    terms.add(std::make_shared<Weight>());
+    terms.add(std::make_shared<Rope>(Vec3(0.01, -0.05, 0.04)), {.last_on_mandible = true});
+    terms.add(std::make_shared<Rope>(Vec3(-0.02, -0.03, 0.06)));
+    const Points x = Points::Constant(1, 3, 0.02);
+    const auto energy_at = [&](const Rigid& mandible) {
+        terms.move_mandible(mandible);
+        Points gradient = Points::Zero(1, 3);
+        return terms.add_potential({0.0, 0.01, x}, x, gradient).sum();
+    };
+
+    Rigid opened = Rigid::Identity();
+    opened.rotate(Eigen::AngleAxisd(0.2, Vec3::UnitX()));
+    BoundaryState boundary;
+    boundary.mandible = opened;
+    terms.set_boundary_conditions(boundary);
+    const Wrench wrench = terms.mandible_gradient(opened, x, Points::Zero(1, 3));
+    constexpr double kStep = 1e-5;  // m and rad; the energy is quadratic, so only rounding is left
+    for (int k = 0; k < 3; ++k) {
+        const auto shifted = [&](double by) {
+            return energy_at(Rigid(Eigen::Translation3d(by * Vec3::Unit(k))) * opened);
+        };
+        const auto rotated = [&](double by) {
+            return energy_at(Rigid(Eigen::AngleAxisd(by, Vec3::Unit(k))) * opened);
+        };
+        EXPECT_NEAR(wrench.force_n[k], (shifted(kStep) - shifted(-kStep)) / (2 * kStep), 1e-8);
+        EXPECT_NEAR(wrench.torque_nm[k], (rotated(kStep) - rotated(-kStep)) / (2 * kStep), 1e-8);
+    }
+}
+
+TEST(MandibleTerms, MatricesGetTermsWithChangingPairsLast) {
+    FaceTerms terms;
+    terms.add(std::make_shared<Weight>(), {.changing_pairs = true});
+    terms.add(std::make_shared<Weight>());
+    EXPECT_EQ(terms.order_of_matrices(), (std::vector<std::size_t>{1, 0}));
+    EXPECT_EQ(terms.list()[0].face_term, nullptr) << "it does not depend on the mandible";
 }
 
 }  // namespace

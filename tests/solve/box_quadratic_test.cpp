@@ -13,7 +13,7 @@ BoxQuadratic random_problem(int unknowns, unsigned seed) {
     BoxQuadratic problem;
     problem.A = J.transpose() * J;
     problem.b = 3 * Eigen::VectorXd::Random(unknowns);
-    problem.price = Eigen::VectorXd::Constant(unknowns, 0.2);
+    problem.l1_weight = Eigen::VectorXd::Constant(unknowns, 0.2);
     problem.min = Eigen::VectorXd::Constant(unknowns, -0.3);
     problem.max = Eigen::VectorXd::Constant(unknowns, 0.4);
     return problem;
@@ -21,7 +21,7 @@ BoxQuadratic random_problem(int unknowns, unsigned seed) {
 
 TEST(BoxQuadratic, WithoutLimitsAndPriceItSolvesTheEquations) {
     BoxQuadratic problem = random_problem(12, 1);
-    problem.price.setZero();
+    problem.l1_weight.setZero();
     problem.min.setConstant(-1e3);
     problem.max.setConstant(1e3);
     Eigen::VectorXd x = Eigen::VectorXd::Zero(12);
@@ -40,8 +40,8 @@ TEST(BoxQuadratic, AtTheMinimumNoUnknownCanMoveForTheBetter) {
             ASSERT_GE(x[i], problem.min[i]);
             ASSERT_LE(x[i], problem.max[i]);
             // Slopes to either side, with the L1 weight.
-            const double up = slope[i] + (x[i] >= 0 ? 1 : -1) * problem.price[i];
-            const double down = slope[i] + (x[i] > 0 ? 1 : -1) * problem.price[i];
+            const double up = slope[i] + (x[i] >= 0 ? 1 : -1) * problem.l1_weight[i];
+            const double down = slope[i] + (x[i] > 0 ? 1 : -1) * problem.l1_weight[i];
             if (x[i] < problem.max[i]) {
                 EXPECT_GE(up, -1e-8);
             }
@@ -65,13 +65,13 @@ TEST(BoxQuadratic, UnknownsThatAreNearlyAlikeTakeFewSweeps) {
     BoxQuadratic problem = random_problem(8, 1);
     problem.A = J.transpose() * J;
     problem.b = -J.transpose() * (J * Eigen::VectorXd::LinSpaced(8, 0.05, 0.35));
-    problem.price.setConstant(1e-4);
+    problem.l1_weight.setConstant(1e-4);
     Eigen::VectorXd x = Eigen::VectorXd::Zero(8);
     EXPECT_LT(minimise(problem, x, 1e-9), 60);
     const Eigen::VectorXd slope = problem.A * x + problem.b;
     for (long i = 0; i < 8; ++i)
         if (x[i] > 0 && x[i] < problem.max[i]) {
-            EXPECT_NEAR(slope[i], -problem.price[i], 1e-9) << i;
+            EXPECT_NEAR(slope[i], -problem.l1_weight[i], 1e-9) << i;
         }
 }
 
@@ -79,7 +79,7 @@ TEST(BoxQuadratic, APriceAboveTheSlopeKeepsAnUnknownAtZero) {
     BoxQuadratic problem;
     problem.A = Eigen::MatrixXd::Identity(2, 2);
     problem.b = Eigen::Vector2d(-0.5, -0.5);
-    problem.price = Eigen::Vector2d(0.6, 0.2);
+    problem.l1_weight = Eigen::Vector2d(0.6, 0.2);
     problem.min = Eigen::Vector2d(-1, -1);
     problem.max = Eigen::Vector2d(1, 1);
     Eigen::VectorXd x = Eigen::Vector2d(1, 1);

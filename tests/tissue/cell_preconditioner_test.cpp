@@ -194,7 +194,7 @@ TEST(CellPreconditioner, TwoRunsGiveTheSameBits) {
 
 TEST(CellPreconditioner, RefinedCellsAreRefused) {
     const Hanging body(cell_body(cell_solids::thesis_cube(4, 100), cell_solids::refined_mesh(),
-                                 MassShares::kCells));
+                                 MassFractions::kCells));
     try {
         body.preconditioner();
         ADD_FAILURE() << "accepted";

@@ -37,7 +37,7 @@ std::vector<std::unique_ptr<Case>> cases() {
     add("thesis' cube", cell_body(thesis_cube(4, 10.0, 0.1)), 0.2);
     add("varied solid", cell_body(varied_solid({4, 3, 5})), 0.05);
     add("varied solid, refined",
-        cell_body(varied_solid({4, 4, 4}), refined_mesh(), MassShares::kCells), 0.04);
+        cell_body(varied_solid({4, 4, 4}), refined_mesh(), MassFractions::kCells), 0.04);
     add("tissue, refined block",
         cell_body(
             refined_mesh(), [](const Vec3& a) -> Vec3 { return 0.1 * a; }, {5e3, 1e5, 40.0}, 1060),
@@ -274,7 +274,7 @@ TEST(CellSolid, CellVolumesSumToTheVolumeWithinTheSurface) {
     EXPECT_EQ(solid.inverted_count(x), 0);
 
     // There are no gaps and overlaps where cells of different sizes meet: moving inner nodes does not change the total.
-    const CellSolid refined(cell_body(thesis_cube(4, 10.0), refined_mesh(), MassShares::kCells));
+    const CellSolid refined(cell_body(thesis_cube(4, 10.0), refined_mesh(), MassFractions::kCells));
     Points moved = refined.body().rest;
     const Points& a = refined.mesh().material_coordinates();
     const Points shakes = jolted(Points::Zero(moved.rows(), 3), 0.1, 16);
@@ -373,11 +373,11 @@ TEST(CellSolid, MassOfTheDescriptionIsKeptOnAnyMesh) {
     const GridSolid varied = varied_solid({4, 4, 4});
     const double total = node_mass(varied).sum();
     EXPECT_NEAR(cell_body(varied).mass_kg.sum(), total, 1e-12 * total);
-    EXPECT_NEAR(cell_body(varied, refined_mesh(), MassShares::kCells).mass_kg.sum(), total,
+    EXPECT_NEAR(cell_body(varied, refined_mesh(), MassFractions::kCells).mass_kg.sum(), total,
                 1e-12 * total);
-    EXPECT_GT(cell_body(varied, refined_mesh(), MassShares::kCells).mass_kg.minCoeff(), 0);
+    EXPECT_GT(cell_body(varied, refined_mesh(), MassFractions::kCells).mass_kg.minCoeff(), 0);
     EXPECT_NEAR((cell_body(varied).mass_kg - node_mass(varied)).norm(), 0, 1e-14);
-    EXPECT_THROW(cell_body(varied, refined_mesh(), MassShares::kNodes), std::invalid_argument);
+    EXPECT_THROW(cell_body(varied, refined_mesh(), MassFractions::kNodes), std::invalid_argument);
 }
 
 TEST(CellSolid, ParametersPerNodeAreThoseOfEquation10AtTheirResolution) {

@@ -6,7 +6,7 @@
 
 #include "risorius/tissue/contacts.h"
 #include "risorius/tissue/dead_loads.h"
-#include "risorius/tissue/tethers.h"
+#include "risorius/tissue/zero_length_springs.h"
 #include "tissue/layered_block.h"
 
 namespace risorius::tissue {
@@ -14,8 +14,8 @@ namespace {
 
 const LayeredBlock kHeldBlock(3, 3, 2);
 
-ZeroLengthSprings some_tethers() {
-    std::vector<ZeroLengthSprings::Tether> list;
+ZeroLengthSprings some_springs() {
+    std::vector<ZeroLengthSprings::Spring> list;
     for (int node = 0; node < 9; ++node)
         list.push_back({node, kHeldBlock.rest.row(node).transpose(),
                         Vec3(0.1 * node, 0.5, 1.0).normalized(), 200.0, 3.0 * node});
@@ -24,39 +24,39 @@ ZeroLengthSprings some_tethers() {
 
 TEST(ZeroLengthSprings, HoldNothingAtTheirTargets) {
     Points gradient = Points::Zero(kHeldBlock.nodes(), 3);
-    EXPECT_EQ(some_tethers().add_energy(kHeldBlock.rest, gradient), 0.0);
+    EXPECT_EQ(some_springs().add_energy(kHeldBlock.rest, gradient), 0.0);
     EXPECT_EQ(gradient.cwiseAbs().maxCoeff(), 0.0);
 }
 
 TEST(ZeroLengthSprings, ForcesAreTheSlopeOfTheEnergy) {
-    expect_gradient_is_exact(some_tethers(), shaken(kHeldBlock.rest, 1e-3, 1));
+    expect_gradient_is_exact(some_springs(), shaken(kHeldBlock.rest, 1e-3, 1));
 }
 
 TEST(ZeroLengthSprings, PullFirmlyAlongTheNormalAndLooselyAcross) {
-    const ZeroLengthSprings tethers({{0, Vec3::Zero(), Vec3::UnitY(), 500.0, 20.0}});
+    const ZeroLengthSprings springs({{0, Vec3::Zero(), Vec3::UnitY(), 500.0, 20.0}});
     Points x(1, 3);
     x << 1e-3, 2e-3, -3e-3;
-    const Points gradient = gradient_of(tethers, x);
+    const Points gradient = gradient_of(springs, x);
     EXPECT_NEAR(gradient(0, 0), 0.02, 1e-15);
     EXPECT_NEAR(gradient(0, 1), 1.0, 1e-15);
     EXPECT_NEAR(gradient(0, 2), -0.06, 1e-15);
 }
 
 TEST(ZeroLengthSprings, CanBeMovedWithTheJaw) {
-    ZeroLengthSprings tethers = some_tethers();
+    ZeroLengthSprings springs = some_springs();
     const Rigid jaw = some_motion();
-    for (ZeroLengthSprings::Tether& tether : tethers.list()) {
-        tether.target = jaw * tether.target;
-        tether.normal = jaw.linear() * tether.normal;
+    for (ZeroLengthSprings::Spring& spring : springs.list()) {
+        spring.target = jaw * spring.target;
+        spring.normal = jaw.linear() * spring.normal;
     }
     Points gradient = Points::Zero(kHeldBlock.nodes(), 3);
-    EXPECT_LT(tethers.add_energy(moved(kHeldBlock.rest, jaw), gradient), 1e-28);
+    EXPECT_LT(springs.add_energy(moved(kHeldBlock.rest, jaw), gradient), 1e-28);
 }
 
 TEST(ZeroLengthSprings, TheMetricBoundsBothDirections) {
-    const ZeroLengthSprings tethers({{1, Vec3::Zero(), Vec3::UnitY(), 5.0, 20.0}});
+    const ZeroLengthSprings springs({{1, Vec3::Zero(), Vec3::UnitY(), 5.0, 20.0}});
     solve::MetricBuilder builder(3);
-    tethers.add_metric(builder);
+    springs.add_metric(builder);
     const Eigen::MatrixXd metric = builder.build({});
     EXPECT_EQ(metric(1, 1), 20.0);
     EXPECT_EQ(metric.sum(), 20.0);

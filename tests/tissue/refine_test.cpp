@@ -122,7 +122,7 @@ TEST(StrainError, LinearDeformationHasNoErrorOnAnyMesh) {
     const Points x = mapped(moduli.mesh(), map);
     EXPECT_LT(squared_error(moduli, x).sum(), 1e-24 * moduli.energy(0, x));
 
-    const CellSolid thesis(cell_body(thesis_cube(4, 100), refined_mesh(), MassShares::kCells));
+    const CellSolid thesis(cell_body(thesis_cube(4, 100), refined_mesh(), MassFractions::kCells));
     const Points y = mapped(thesis.mesh(), [&](const Vec3& a) -> Vec3 { return F * (kSide * a); });
     EXPECT_LT(squared_error(thesis, y).sum(), 1e-24 * thesis.energy(0, y));
     EXPECT_EQ(squared_error(thesis, y).size(),

@@ -4,7 +4,7 @@
 #include "risorius/tissue/detail/principal_stretches.h"
 #include "risorius/tissue/skin_sheet.h"
 #include "risorius/tissue/tet_solid.h"
-#include "risorius/tissue/tethers.h"
+#include "risorius/tissue/zero_length_springs.h"
 #include "second_derivative_checks.h"
 #include "tissue/layered_block.h"
 
@@ -76,15 +76,15 @@ TEST(SecondDerivatives, OfSkinAreTheSlopeOfItsForces) {
     expect_positive_part(second(Curvature::kPositive), exact);
 }
 
-TEST(SecondDerivatives, OfTethersAndContactsAreTheSlopeOfTheirForces) {
+TEST(SecondDerivatives, OfZeroLengthSpringsAndContactsAreTheSlopeOfTheirForces) {
     const Points x = shaken(kSmall.rest, 1e-3, 23);
     const Vec3 slanted = Vec3(1, 2, -1).normalized();
-    const ZeroLengthSprings tethers(
+    const ZeroLengthSprings springs(
         {{2, Vec3(1e-3, 0, 0), slanted, 30, 5}, {2, Vec3::Zero(), slanted, 1, 0}});
     const Eigen::MatrixXd held = dense_second(
-        x.rows(), [&](solve::HessianBuilder& builder) { tethers.add_hessian(builder); });
+        x.rows(), [&](solve::HessianBuilder& builder) { springs.add_hessian(builder); });
     expect_slope_of_gradient(
-        held, x, [&](const Points& y, Points& g) { return tethers.add_energy(y, g); }, 1e-5, 1e-9);
+        held, x, [&](const Points& y, Points& g) { return springs.add_energy(y, g); }, 1e-5, 1e-9);
 
     Contacts contacts;
     Contacts::Contact touching{.node = 0,

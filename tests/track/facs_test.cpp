@@ -66,7 +66,7 @@ TEST(Facs, SmileUnitPullsBothCorners) {
     const Expansion au12 = unit("AU12");
     EXPECT_GT(excitation(au12, "zygomaticus_major.l"), 0.5);
     double sum = 0;
-    for (const MuscleShare& fraction : tables().facs.find("AU12")->muscles) {
+    for (const MuscleFraction& fraction : tables().facs.find("AU12")->muscles) {
         EXPECT_EQ(excitation(au12, fraction.muscle + ".l"), fraction.weight);
         EXPECT_EQ(excitation(au12, fraction.muscle + ".r"), fraction.weight);
         sum += 2 * fraction.weight;

@@ -35,7 +35,7 @@ namespace {
 
 constexpr double kTrack_s = 4.0;
 
-// A smile, raised brows, a blink, an open jaw and a frown: all that is slow in a face.
+// A smile, raised brows, a blink, an open jaw and a frown: everything that is slow in a face.
 Json bench_script(const std::string& rig, double duration_s) {
     return Json::parse(R"({
         "format": "risorius-script", "version": 1, "rig": ")" +
@@ -71,7 +71,7 @@ Json describe_machine() {
 double peak_memory_mb() {
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux gives kB
+    return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux reports kB
 }
 
 /// A temporary folder, removed with its contents.
@@ -103,7 +103,7 @@ struct Bench {
         return [this](double t_s) { return timeline.at(t_s); };
     }
 
-    // Steps through the whole track on one core.
+    // Simulates the whole track on one core.
     Json simulate(const std::string& quality) const {
         monitor.report(0, "simulating, " + quality);
         face::Face face(files.rig, files.mesh, face::quality_named(quality), files.place());
@@ -126,7 +126,8 @@ struct Bench {
                 {"mean_iterations", static_cast<double>(iterations) / steps}};
     }
 
-    // The same track with and without the standard volume muscles. Steps alternate, so that both run under the same load.
+    // Simulates the same track with and without the standard volume muscles. Steps alternate, so that both run under the same
+    // load.
     Json compare_solids() const {
         monitor.report(0.25, "volume muscles");
         rig::RigDescription bundles = files.rig, solids = files.rig;
@@ -274,7 +275,7 @@ Json bench_machine(const BenchOptions& options, const ProgressMonitor& monitor) 
     out["toolkit"] = kVersion;
     out["machine"] = describe_machine();
     for (const fs::path& rig : rigs)
-        scene::read_rig_files(rig);  // reports errors before anything is measured
+        scene::read_rig_files(rig);  // reports errors before measurements start
 
     if (options.stress_steps > 0) {
         out["stress"] = Json::array();
@@ -286,7 +287,7 @@ Json bench_machine(const BenchOptions& options, const ProgressMonitor& monitor) 
         return out;
     }
 
-    // Solids take about as long as one rig. They come last, since they raise the peak of the memory.
+    // Solids take about as long as one rig. They come last because they raise the peak memory.
     const double parts = 1 + static_cast<double>(rigs.size());
     out["rigs"] = Json::array();
     for (std::size_t i = 0; i < rigs.size(); ++i) {

@@ -26,9 +26,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr animate::PictureSize kSizes[] = {{512, 512}, {1024, 1024}, {1920, 1080}};
-constexpr std::size_t kWarmUp =
-    12;  ///< frames until every thread has made its view and compiled its shaders
-constexpr int kDrawnEvery = 4;  ///< every fourth frame is drawn when stages are timed alone
+/// Frames until every thread has made its view and compiled its shaders
+constexpr std::size_t kWarmUp = 12;
+constexpr int kDrawnEvery = 4;  ///< every fourth frame is drawn when stages are timed separately
 
 Json script_of(const fs::path& rig) {
     Json script = Json::parse(R"({
@@ -41,7 +41,7 @@ Json script_of(const fs::path& rig) {
     return script;
 }
 
-// Runs the stages of a job one after another, so that each is timed alone.
+// Runs the stages of a job one after another, to time each separately.
 Json stages(const animate::RenderJob& job) {
     const scene::RigFiles& files = job.rig->files;
     const track::ChannelTable channels = files.rig.channels();

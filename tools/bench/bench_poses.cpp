@@ -50,7 +50,7 @@ Json bench_poses(const scene::RigFiles& files, const PoseBench& bench,
                  const ProgressMonitor& monitor) {
     std::vector<track::Drive> drives;
     for (const std::string& unit : bench.units) drives.push_back(drive_of(files, unit));
-    // Progress in nodes, since time is proportional to them
+    // Progress is counted in nodes, because time is proportional to them.
     double all = 0, done = 0;
     for (const int vertices : bench.shell_vertices)
         all += static_cast<double>(vertices) * static_cast<double>(drives.size());

@@ -2,7 +2,7 @@
 /// \file
 /// Benchmark of static equilibria on shells of increasing size: iterations, time and remaining error.
 ///
-///   left    maximum motion of a node when the equilibrium is solved again from the solution, with a tolerance 100 times smaller
+///   left    maximum displacement of a node when the equilibrium is solved again, from the solution, with a tolerance 100 times smaller
 #pragma once
 
 #include <string>

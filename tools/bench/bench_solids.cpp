@@ -21,7 +21,7 @@ namespace {
 constexpr double kStep_s = 1.0 / 60, kEdge_m = 3;
 constexpr int kMinIterations = 2, kMaxIterations = 30;
 
-/// The cube of figures 5 and 9: 4 kg, lambda 1.5 N/m^3, omega 0.1 N s/m^3, held at its highest plane of a3.
+/// The cube of figures 5 and 9: 4 kg, lambda 1.5 N/m^3, omega 0.1 N s/m^3, fixed at the uppermost plane of a3.
 struct HangingCube {
     std::shared_ptr<tissue::CellSolid> solid;
     solve::MotionSystem system;
@@ -63,8 +63,8 @@ struct Fall {
     std::vector<double> step_ms, converged_ms, error;
 };
 
-/// Lets the cube fall with a number of iterations for each step; some steps are also converged, to measure the error. Stops early
-/// when an error exceeds what is accepted.
+/// Releases the cube, with a fixed number of iterations per step. Some steps are also converged to measure the error. Stops early
+/// when an error exceeds the limit.
 Fall fall(const HangingCube& cube,
           const std::shared_ptr<tissue::CellPreconditioner>& preconditioner, int iterations,
           const SolidBenchOptions& options) {
@@ -101,7 +101,8 @@ double newton_ms(const HangingCube& cube) {
                                                 .length_scale_m = kEdge_m,
                                                 .newton_tolerance = 1e-7});
     solve::MotionState state = cube.at_rest;
-    newton->advance(cube.system, state, kStep_s);  // the first step also orders the matrix
+    // The first step also analyses the sparsity of the matrix
+    newton->advance(cube.system, state, kStep_s);
     const report::CoreStopwatch stopwatch;
     newton->advance(cube.system, state, 2 * kStep_s);
     return 1e3 * stopwatch.seconds();

@@ -21,10 +21,10 @@ namespace {
 constexpr double kTurn = 2 * 3.14159265358979323846;
 constexpr double kPose_s = 0.5, kSwitch_s = 0.02, kJaw_hz = 2;
 constexpr int kPoses = 4;
-// Converged: an iteration moves the nodes by less than 0.02 micrometres RMS, far below any reported error.
+// An iteration of a converged step moves the nodes by less than 0.02 micrometres RMS, far below any reported error.
 constexpr double kConverged_m = 2e-8;
 constexpr int kConvergedIterations = 400;
-// Iterations of "preview" on more skin nodes than usual: as close to convergence as six on the usual number.
+// Iterations of "preview" on larger shells: they reach the same error as six on the usual size.
 constexpr int kIterationsOfFinerShells = 5;
 constexpr int kTimesPlayed = 3;
 
@@ -42,7 +42,7 @@ Json pose_keys(int pose, double value) {
     return {{"keys", keys}, {"interpolation", "linear"}};
 }
 
-// The jaw opens by three quarters in its own pose and by a quarter in the others.
+// The jaw opens to 3/4 in its own pose and to 1/4 in the others.
 Json jaw_keys() {
     Json keys = Json::array();
     for (int k = 0; k <= static_cast<int>(std::lround(kStepTrack_s * 30)); ++k) {
@@ -131,8 +131,8 @@ Json bench_steps(const scene::RigFiles& files, const std::vector<StepBench>& cas
                  const ProgressMonitor& monitor) {
     const track::Timeline timeline(step_track(files), files.rig.channels());
     const face::DriveAt drive = [&](double t_s) { return timeline.at(t_s); };
-    std::map<std::tuple<int, int, double>, SkinTrack>
-        converged;  // by size of the shell, number of steps and length of a substep
+    // Key: size of the shell, number of steps and length of a substep
+    std::map<std::tuple<int, int, double>, SkinTrack> converged;
     const auto key = [](const StepBench& one) {
         return std::tuple(one.quality.shell_vertices, one.steps, one.quality.max_substep_s);
     };
@@ -146,7 +146,7 @@ Json bench_steps(const scene::RigFiles& files, const std::vector<StepBench>& cas
         converged[key(one)] = play(files, drive, {exact, one.steps}, monitor).skin;
     }
 
-    // All cases run before any is repeated, since a shared machine can be slow for seconds.
+    // Every case runs once before any is repeated, because a shared machine can be slow for seconds.
     std::vector<StepRun> runs(cases.size());
     std::vector<std::vector<double>> min_ms(cases.size());
     for (int time = 0; time < kTimesPlayed; ++time)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Benchmark of the time and the error of steps of a face, on a demanding track: smile, sneer, open jaw and pucker alternate every half
-/// second, the jaw opens twice a second, and the eyes blink.
+/// Benchmark of time and error of the steps of a face on a demanding track: smile, sneer, open jaw and pucker alternate every
+/// half second, the jaw opens twice a second, and the eyes blink.
 ///
-///   error   of skin nodes over all steps, against the same track with every step converged; errors that accumulate are included
-///   time    processor time of one core for a step of 1/60 s: median and mean over the steps of three runs; and the median over
+///   error   of skin nodes over all steps, relative to the same track with every step converged; accumulated errors are included
+///   time    CPU time of one core for a step of 1/60 s: median and mean over the steps of three runs; and the median over
 ///           steps of the minimum of the three runs, which depends least on the load of the machine
 #pragma once
 
@@ -25,16 +25,16 @@ track::ScriptDescription step_track(const scene::RigFiles& files);
 
 struct StepBench {
     face::Quality quality;
-    int steps = 240;  ///< of the track, from its start
+    int steps = 240;  ///< number of steps from the start of the track
 };
 
-/// For each entry: quality, nodes, tets, max_inverted_tets (of any step), steps, iterations (mean), step_ms, least_step_ms and mean_step_ms, rms_mm and
-/// largest_mm. Entries with equal shells and steps share the converged track.
+/// Returns for each entry: quality, nodes, tets, max_inverted_tets (over all steps), steps, iterations (mean), step_ms,
+/// least_step_ms and mean_step_ms, rms_mm and largest_mm. Entries with equal shells and steps share the converged track.
 Json bench_steps(const scene::RigFiles& files, const std::vector<StepBench>& cases,
                  const ProgressMonitor& monitor = {});
 
-/// The qualities of face::quality_named, then shells of about 10 and 20 thousand nodes with the iterations of "fine", for the first
-/// second.
+/// The qualities of face::quality_named(), followed by shells of about 10 and 20 thousand nodes with the iterations of "fine",
+/// for the first second.
 std::vector<StepBench> usual_step_benches();
 
 }  // namespace risorius::bench

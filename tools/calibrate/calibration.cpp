@@ -18,14 +18,14 @@ namespace risorius::calibrate {
 
 namespace {
 
-// Per expression: what is measured at the skin nodes, and the activations' part of the unknowns.
+// An expression: the target at the skin nodes, and its activations among the unknowns.
 struct Expression {
     const inverse::MeasuredShape* shape;
     std::vector<inverse::ActivationUnknown> unknowns;
-    Eigen::VectorXd price;        // what the table does not list costs more
+    Eigen::VectorXd l1_weight;    // larger for muscles that the table does not list
     Eigen::VectorXd table, goal;  // goal: 3 per node, times the root of its area
     double size;                  // |goal|^2
-    long first;                   // of its activations among all unknowns
+    long first;                   // index of its first activation among all unknowns
 };
 
 struct Trial {
@@ -35,7 +35,7 @@ struct Trial {
     double cost = 0;
 };
 
-// Few nodes feel one parameter.
+// One parameter acts on few nodes only.
 struct SparseForce {
     std::vector<int> row;
     std::vector<Eigen::Vector3f> value;
@@ -62,16 +62,16 @@ class Calibration {
             one.table.resize(static_cast<long>(one.unknowns.size()));
             for (std::size_t i = 0; i < one.unknowns.size(); ++i)
                 one.table[static_cast<long>(i)] = inverse::value_of(one.unknowns[i], shape.drive);
-            // Lids go where their table says, jaws only where it moves them: the face around them is to be found
+            // The tables fix the lids, and the jaw unless the table moves it: only the face around them is to be fitted.
             for (inverse::ActivationUnknown& unknown : one.unknowns)
                 if (unknown.name.starts_with("levator_palpebrae") ||
                     unknown.name.starts_with("superior_tarsal") ||
                     (!unknown.channels.empty() && inverse::value_of(unknown, shape.drive) == 0))
                     unknown.min = unknown.max = inverse::value_of(unknown, shape.drive);
-            one.price = one.table.unaryExpr(
-                [&](double value) { return options.price * (value != 0 ? 0.5 : 5.0); });
+            one.l1_weight = one.table.unaryExpr(
+                [&](double value) { return options.l1_weight * (value != 0 ? 0.5 : 5.0); });
             for (std::size_t i = 0; i < one.unknowns.size(); ++i)
-                if (!one.unknowns[i].channels.empty()) one.price[static_cast<long>(i)] *= 2;
+                if (!one.unknowns[i].channels.empty()) one.l1_weight[static_cast<long>(i)] *= 2;
             Points measured(static_cast<long>(shell.vertex.size()), 3);
             for (std::size_t v = 0; v < shell.vertex.size(); ++v)
                 measured.row(static_cast<long>(v)) = shape.displacement.row(shell.vertex[v]);
@@ -156,8 +156,8 @@ class Calibration {
                 one.goal);
             out.cost += 0.5 * out.miss.back().squaredNorm() / one.size;
             const Eigen::VectorXd a = z.segment(one.first, one.table.size());
-            out.cost +=
-                one.price.dot(a.cwiseAbs()) + 0.5 * options_.stay * (a - one.table).squaredNorm();
+            out.cost += one.l1_weight.dot(a.cwiseAbs()) +
+                        0.5 * options_.stay * (a - one.table).squaredNorm();
         }
         for (std::size_t p = 0; p < parameters_.size(); ++p) {
             const double off = z[static_cast<long>(p)] / parameters_[p].spread;
@@ -177,12 +177,12 @@ class Calibration {
         return out;
     }
 
-    // The quadratic model about the present unknowns, without its limits.
+    // The quadratic model about the current unknowns, without limits.
     solve::BoxQuadratic linearised(const Trial& now,
                                    const std::function<void(const std::string&)>& report) const {
         const long parameters = static_cast<long>(parameters_.size());
         const Eigen::VectorXd p = z_.head(parameters);
-        // What each parameter adds to the forces of every expression
+        // The force that each parameter adds in every expression.
         std::vector<std::vector<SparseForce>> force(expressions_.size());
         for (long i = 0; i < parameters; ++i) {
             const double step = parameters_[static_cast<std::size_t>(i)].step;
@@ -205,7 +205,7 @@ class Calibration {
         solve::BoxQuadratic problem;
         problem.A = Eigen::MatrixXd::Zero(z_.size(), z_.size());
         problem.b = Eigen::VectorXd::Zero(z_.size());
-        problem.price = Eigen::VectorXd::Zero(z_.size());
+        problem.l1_weight = Eigen::VectorXd::Zero(z_.size());
         const rig::RigDescription rig = changed(files_.rig, parameters_, p);
         for (std::size_t e = 0; e < expressions_.size(); ++e) {
             const Expression& one = expressions_[e];
@@ -249,7 +249,7 @@ class Calibration {
             problem.A.block(one.first, one.first, own, own) = A.bottomRightCorner(own, own);
             problem.b.head(parameters) += b_local.head(parameters);
             problem.b.segment(one.first, own) = b_local.tail(own) - options_.stay * one.table;
-            problem.price.segment(one.first, own) = one.price;
+            problem.l1_weight.segment(one.first, own) = one.l1_weight;
             problem.A.diagonal().segment(one.first, own).array() += options_.stay;
         }
         for (long i = 0; i < parameters; ++i) {

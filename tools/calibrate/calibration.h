@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Brings the anatomy of a rig near measured expressions: parameters of the anatomy and the activations of every expression
-/// together, by Gauss-Newton over settled poses.
+/// Fits the anatomy of a rig to measured expressions: parameters of the anatomy and the activations of every expression together,
+/// by Gauss-Newton over equilibrium poses.
 ///
 ///   minimise  sum over expressions 1/2 |u - g|_w^2 / |g|_w^2 + keep/2 sum (p / spread)^2 + stay/2 sum (a - a_table)^2 + price sum |a|
 ///
-///   p   parameters (parameters.h), 0 as they are     a   activations of one expression, within their range
-///   u   displacement of the simulated skin nodes, dx/dp = -H^-1 dg/dp with H the second derivative of the settled face
+///   p   parameters (parameters.h), 0 for the given anatomy     a   activations of one expression, within their range
+///   u   displacement of the simulated skin nodes, dx/dp = -H^-1 dg/dp with the Hessian H of the face in equilibrium
 #pragma once
 
 #include <functional>
@@ -22,16 +22,17 @@ namespace risorius::calibrate {
 
 struct Options {
     int rounds = 6;
-    double keep =
-        4e-3;  ///< total over all parameters at one spread each, per expression, is keep * count / 2
+    /// With all parameters at one spread, the total per expression is keep * count / 2
+    double keep = 4e-3;
     double stay = 4e-3;
-    double price = 2e-3;  ///< half of it for what the table lists, five times for what it does not
+    /// Halved for muscles that the table lists, five times as large for others
+    double l1_weight = 2e-3;
     std::string quality = "preview";
 };
 
 struct Result {
     Eigen::VectorXd parameters;
-    std::vector<Eigen::VectorXd> activations;  ///< per expression, of its unknowns
+    std::vector<Eigen::VectorXd> activations;  ///< one vector per expression
     std::vector<std::vector<inverse::ActivationUnknown>> unknowns;
     std::vector<double> relative_before, relative_after;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Calibrates the standard anatomy on measured expressions of one head: a tool for those who make the tables, not for those who use them.
+// Calibrates the standard anatomy on measured expressions of one head. This tool is for authors of the tables, not for their
+// users.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
@@ -19,7 +20,7 @@ namespace {
 
 using namespace risorius;
 
-// Mean length of each muscle's fibres at full activation, by itself.
+// Mean fibre length of each muscle when it alone is fully active.
 std::map<std::string, double> stretches(const scene::RigFiles& files,
                                         const rig::RigDescription& rig,
                                         const std::string& quality) {
@@ -40,14 +41,14 @@ std::map<std::string, double> stretches(const scene::RigFiles& files,
     return out;
 }
 
-// How the landmarks go in every standard expression of the calibrated head.
+// Writes the displacement of the landmarks in every standard expression of the calibrated head.
 void write_ways(const std::filesystem::path& rig_file, const std::string& quality,
                 const std::filesystem::path& standard) {
     const scene::RigFiles files = scene::read_rig_files(rig_file);
     face::Face face(files.rig, files.mesh, face::quality_named(quality), files.place());
     scene::LandmarkDisplacements ways(face, files.rig, files.place());
     scene::DisplacementTable table;
-    // Those that lids and jaw bring about say nothing about the strength of muscles
+    // Expressions of lids and jaw give no information on the strength of muscles.
     const std::set<std::string> others{"eyeBlink", "eyeWide", "jawForward", "jawOpen"};
     for (const std::string& name : inverse::twenty_four_expressions()) {
         if (others.count(name)) continue;
@@ -86,7 +87,7 @@ int main(int argc, char** argv) {
     app.add_option("--rounds", options.rounds)->capture_default_str();
     app.add_option("--keep", options.keep)->capture_default_str();
     app.add_option("--stay", options.stay)->capture_default_str();
-    app.add_option("--price", options.price)->capture_default_str();
+    app.add_option("--price", options.l1_weight)->capture_default_str();
     app.add_option("--quality", options.quality)->capture_default_str();
     app.add_flag("--write-shapes", shapes_too, "Write the activations found into facs.json, too");
     app.add_flag("--ways-only", ways_only,

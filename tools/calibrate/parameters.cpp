@@ -12,7 +12,7 @@ namespace {
 void add_attachments(const rig::RigDescription& rig, std::vector<Parameter>& out) {
     for (const rig::AttachmentSample& sample : rig.atlas.attachments) {
         const std::string id = sample.landmark, mirror = rig::mirrored_landmark(id);
-        if (id > mirror) continue;  // one for both sides
+        if (id > mirror) continue;  // one entry for both sides
         for (const bool along : {false, true})
             out.push_back({(along ? "slide " : "lift ") + id, 1.0, 0.1, 3.5,
                            [id, mirror, along](rig::RigDescription& changed, double value) {
@@ -34,7 +34,7 @@ void add_bands(const rig::RigDescription& rig, std::vector<Parameter>& out) {
                                for (rig::MuscleBand& one : changed.atlas.bands)
                                    if (one.muscle == muscle) one.strength *= std::exp(value);
                            }});
-        // A band across the midline stays its own mirror image
+        // A band across the midline must stay symmetric.
         const std::size_t count = band.points.size();
         const bool crosses = band.crosses_midline();
         for (std::size_t i = 0; i < (crosses ? (count + 1) / 2 : count); ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Numbers of the standard anatomy that calibration may change: attachments, muscle paths and strengths, tissue. All are
-/// relative to landmarks or to head size, so that what one measured head teaches carries to others.
+/// Parameters of the standard anatomy that calibration may change: attachments, muscle paths and strengths, tissue. All are
+/// relative to landmarks or to head size, so that the result of one measured head applies to others.
 #pragma once
 
 #include <functional>
@@ -14,10 +14,10 @@ namespace risorius::calibrate {
 
 struct Parameter {
     std::string name;
-    double spread;  ///< how far from the published value it may plausibly lie, standard deviation
-    double step;    ///< for differences
-    double max;     ///< |value| at most
-    std::function<void(rig::RigDescription&, double value)> add;  ///< value 0: as it is
+    double spread;  ///< standard deviation of plausible deviations from the published value
+    double step;    ///< step of finite differences
+    double max;     ///< largest |value|
+    std::function<void(rig::RigDescription&, double value)> add;  ///< value 0: unchanged
 };
 
 std::vector<Parameter> anatomy_parameters(const rig::RigDescription& rig);

@@ -14,7 +14,7 @@ namespace {
 
 double rounded(double value, double unit) { return std::round(value / unit) * unit; }
 
-// Two significant digits.
+// Rounds to two significant digits.
 double short_of(double value) {
     const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
     return rounded(value, unit);
@@ -36,7 +36,7 @@ std::string line_of(const Json& value) {
     return value.is_object() ? "{" + out + "}" : "[" + out + "]";
 }
 
-// Objects and arrays down to `depth` over several lines, deeper ones on one.
+// Writes objects and arrays over several lines down to `depth`, deeper ones on a single line.
 std::string text_of(const Json& value, int depth, const std::string& indent = "") {
     if (!value.is_structured() || depth == 0 || value.empty()) return line_of(value);
     std::string out = value.is_object() ? "{\n" : "[\n";
@@ -102,7 +102,7 @@ void write_shapes(const std::vector<inverse::MeasuredShape>& shapes, const Resul
                 return id;
             };
             Json& shape = facs["arkit"][name];
-            // A shape that is one whole unit teaches the unit
+            // A shape that is a single whole unit changes that unit.
             Json* target = &shape;
             std::string ending = side;
             if (shape.contains("units") && shape["units"].size() == 1 &&
@@ -114,7 +114,7 @@ void write_shapes(const std::vector<inverse::MeasuredShape>& shapes, const Resul
                 if (sided.side) ending.clear();
             }
             Json muscles = Json::object(), jaw = Json::object();
-            if (target->contains("muscles"))  // what the search did not move stays
+            if (target->contains("muscles"))  // values that the search did not change stay
                 for (const auto& [id, value] : (*target)["muscles"].items())
                     if (!searched(track::split_side(id).id, result.unknowns[e]))
                         muscles[id] = value;
@@ -147,7 +147,7 @@ void write_shapes(const std::vector<inverse::MeasuredShape>& shapes, const Resul
         const bool whole = arkit.contains(name), left = arkit.contains(name + "Left"),
                    right = arkit.contains(name + "Right");
         if (whole) write(name, "");
-        // mouthLeft, jawLeft: the other direction is the mirror image
+        // For mouthLeft and jawLeft, the other direction is the mirror image.
         if (whole && shapes[e].sided && name.ends_with("Left"))
             write(name.substr(0, name.size() - 4) + "Right", "", true);
         if (left) write(name + "Left", ".l");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Writes what calibration found into the standard tables, keeping their form: one landmark, one band, one shape per line.
+/// Writes the results of calibration to the standard tables and keeps their layout: one landmark, one band, one shape per line.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,17 @@
 
 namespace risorius::calibrate {
 
-/// attachments.json and muscle_bands.json of `folder` get the numbers of `rig`; each muscle of the bands the length it shortened to.
+/// Writes the values of `rig` to attachments.json and muscle_bands.json of `folder`, and to each band the mean fibre length
+/// `stretch` of its muscle.
 void write_tables(const rig::RigDescription& rig, const std::map<std::string, double>& stretch,
                   const std::filesystem::path& folder);
 
-/// facs.json: the ARKit shapes among `shapes`, or the unit that one of them is, get the activations found. Sources under `least` are left out.
+/// Writes the activations found to facs.json: to the ARKit shapes among `shapes`, or to the unit that a shape consists of.
+/// Activations below `min` are left out.
 void write_shapes(const std::vector<inverse::MeasuredShape>& shapes, const Result& result,
                   const rig::RigDescription& rig, double min, const std::filesystem::path& folder);
 
-/// landmark_ways.json.
+/// Writes landmark_ways.json.
 void write_ways(const scene::DisplacementTable& ways, const std::filesystem::path& folder);
 
 }  // namespace risorius::calibrate

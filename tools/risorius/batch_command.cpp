@@ -83,7 +83,7 @@ void print_plan(const BatchArguments& arguments) {
     }
 }
 
-// "2/8"
+// Reads a part such as "2/8".
 void read_part(const std::string& text, stimuli::BatchOptions& options) {
     char rest = 0;
     if (std::sscanf(text.c_str(), "%6d/%6d%c", &options.part, &options.parts, &rest) != 2 ||

@@ -17,7 +17,7 @@ struct CheckArguments {
     std::vector<std::filesystem::path> files;
 };
 
-// All files are checked, so that one call reports all errors. The messages are those of a run with the same file.
+// All files are checked, so that one call reports all errors. A run with the same file would give the same messages.
 void run(const CheckArguments& arguments) {
     Json report = Json::array();
     int broken = 0;

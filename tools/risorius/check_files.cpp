@@ -30,7 +30,7 @@ void check_rig(const fs::path& file, CheckResult& result) {
                                " landmarks are not given and placed by the atlas");
 }
 
-/// Notes what a script asks for after its last frame.
+/// Adds a note for each event after the last frame of a script.
 void note_late_events(const track::ScriptDescription& script, CheckResult& result) {
     const double end_s = script.header.duration_s;
     const auto note = [&](const std::string& what, const std::string& does, double at_s) {
@@ -70,7 +70,7 @@ void check_landmarks(const fs::path& file, CheckResult& result) {
 void check_mesh_file(const fs::path& file, CheckResult& result) {
     const geom::PolygonMesh mesh = io::read_mesh(file);
     geom::MeshCheckOptions options;
-    options.scale = geom::Severity::kIgnore;  // no one has said in which unit it is
+    options.scale = geom::Severity::kIgnore;  // its unit is unknown
     for (std::size_t g = 0; g < mesh.group_names.size(); ++g)
         if (fitting::role_suggested_by(mesh.group_names[g]) == "skin")
             options.groups.push_back(static_cast<int>(g));
@@ -94,7 +94,8 @@ void check(CheckResult& result) {
     if (result.format == "experiment") figures::check_experiment(json);
     if (result.format == "landmarks") check_landmarks(result.file, result);
     if (result.format == "rig") check_rig(result.file, result);
-    // Readers say best what is wrong; the schema knows the formats that only programs write, and keys that only a run reads.
+    // The readers give the best messages. The schema also covers formats that only programs write, and keys that only a run
+    // reads.
     check_against_schema(json, format);
 }
 

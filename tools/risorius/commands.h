@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The commands of the program. Each adds its options to the command line and runs when it is the one that was asked for.
+/// The commands of the program. Each adds its options to the command line, and runs if it is the requested one.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -24,7 +24,7 @@ void add_shapes(CLI::App& app);
 void add_solve(CLI::App& app);
 void add_batch(CLI::App& app);
 
-/// The input is wrong, and what is wrong has been said.
+/// Thrown for wrong input after the message has been printed.
 class SaidAlready : public std::exception {};
 
 }  // namespace risorius::cli

@@ -18,7 +18,7 @@ struct FigureArguments {
     bool list = false;
 };
 
-/// "3 s", "4 min"
+/// A duration in words: "3 s", "4 min".
 std::string about(double seconds) {
     if (seconds <= 0) return "";
     char text[32];

@@ -20,7 +20,7 @@ struct FitArguments {
     bool no_calibrate = false, muscles_apart = false;
 };
 
-// "skin=face,neck"
+// Reads a part such as "skin=face,neck".
 void add_part(const std::string& text, std::map<std::string, std::vector<std::string>>& parts) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals + 1 == text.size())

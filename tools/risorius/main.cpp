@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The command line: turns arguments into calls of the libraries, and exceptions into messages and exit codes.
+// The command line: turns arguments into calls of the library, and exceptions into messages and exit codes.
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
@@ -25,7 +25,7 @@ int say(ExitCode code, const std::string& message) {
 
 using risorius::in_quotes;
 
-/// The flag of the command line that sets a field of an options struct: its name without the unit.
+/// The flag that sets a field of an options struct: the name of the field without its unit.
 std::string flag_of(const std::string& field) {
     std::string flag = field;
     for (const char* unit : {"_s", "_deg", "_mm", "_px"})
@@ -34,7 +34,7 @@ std::string flag_of(const std::string& field) {
     return "--" + flag;
 }
 
-// Errors of the command line in the form of all messages: place, expected, found.
+// Converts errors of the command line to the form of all messages: place, expected, found.
 std::string message_of(const CLI::ParseError& error, const CLI::App& app, int argc, char** argv) {
     if (app.get_subcommands().empty()) {
         std::string listed;
@@ -70,7 +70,7 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app, int ar
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
         return place + " " + text.substr(0, text.find(':')) + ": expected a value, found none";
     if (dynamic_cast<const CLI::ConversionError*>(&error)) {
-        // "Could not convert: --fps = 3.5"
+        // Messages such as "Could not convert: --fps = 3.5"
         const std::size_t name = text.find("--"), equals = text.find(" = ");
         if (name != std::string::npos && equals != std::string::npos) {
             const std::string option = text.substr(name, equals - name);
@@ -79,7 +79,8 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app, int ar
                    ", found " + in_quotes(text.substr(equals + 3));
         }
     }
-    // "--texture: Value 99999 not in range 256 to 4096", "--quality: best not in {draft,fine}", "--steps excludes --shapes"
+    // Messages such as "--texture: Value 99999 not in range 256 to 4096", "--quality: best not in {draft,fine}", "--steps
+    // excludes --shapes"
     std::smatch part;
     if (std::regex_match(text, part, std::regex("(.*): Value (.*) not in range (.*) to (.*)")))
         return place + " " + part.str(1) + ": expected a number in [" + part.str(3) + ", " +
@@ -136,7 +137,7 @@ int main(int argc, char** argv) {
     name_values(app);
     cli::catch_interrupts();
     try {
-        app.parse(argc, argv);  // runs the command
+        app.parse(argc, argv);  // also runs the command
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
         return say(kWrongInput, message_of(error, app, argc, argv));

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Commands that a user calls; those in no group are hidden.
+/// The commands for users; commands without a group are hidden.
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
     std::vector<const CLI::App*> commands;
     for (const CLI::App* command : app.get_subcommands({}))
@@ -51,7 +51,7 @@ void add_flags(const CLI::App& command, std::vector<Flag>& flags) {
     }
 }
 
-/// Positional arguments, then options in their order; groups of options are nested in a command.
+/// Positional arguments, followed by options in their order, including those of nested option groups.
 std::vector<Flag> flags_of(const CLI::App& command) {
     std::vector<Flag> flags;
     add_flags(command, flags);
@@ -76,7 +76,7 @@ std::string usage_of(const CLI::App& command) {
     return usage + " [OPTIONS]";
 }
 
-/// Lines of a footer that are commands.
+/// The lines of a footer that are commands.
 std::vector<std::string> examples_of(const CLI::App& command) {
     std::vector<std::string> examples;
     std::istringstream footer(command.get_footer());
@@ -97,7 +97,7 @@ std::string in_table(const std::string& text) {
     return replaced(replaced(replaced(text, "|", "\\|"), "<", "&lt;"), "\n", " ");
 }
 
-/// Text for troff: hyphens stay hyphens, and no line begins a request.
+/// Escapes text for troff: hyphens stay hyphens, and no line starts a request.
 std::string troff(std::string text) {
     text = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
     return std::regex_replace(text, std::regex("(^|\n)([.'])"), "$1\\&$2");
@@ -107,7 +107,7 @@ std::string in_single_quotes(const std::string& text) {
     return "'" + replaced(text, "'", "'\\''") + "'";
 }
 
-/// The values that a description or a check lists, for completion: "{draft,preview}" as a type name.
+/// The values for completion that a description or a check lists, for instance "{draft,preview}" as a type name.
 std::string choices_of(const Flag& flag) {
     std::smatch found;
     if (!std::regex_search(flag.value, found, std::regex("\\{([^}]*)\\}"))) return "";

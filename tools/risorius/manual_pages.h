@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Pages about the command line, made from the same description as --help: a page of the manual, man pages, and completions
-/// for shells.
+/// Documentation of the command line from the same description as --help: a page of the manual, man pages, and completions for
+/// shells.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,7 +17,7 @@ std::string markdown_pages(const CLI::App& app);
 /// The man page of a command in troff, or of the whole program when `command` is null.
 std::string man_page(const CLI::App& app, const CLI::App* command);
 
-/// Completion of commands, options and their values.
+/// Completion scripts for commands, options and their values.
 std::string bash_completion(const CLI::App& app);
 std::string zsh_completion(const CLI::App& app);
 std::string fish_completion(const CLI::App& app);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Options that several commands share: the view and the encoding.
+/// Options that several commands share: view and encoding.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What a rig is made of and what scripts can drive on it.
+/// A summary of a rig: its parts, and what scripts can drive.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace risorius::cli {
 
-/// name, mesh, parts, size, landmarks, muscles, action units, expressions and kinematic channels.
+/// Returns name, mesh, parts, size, landmarks, muscles, action units, expressions and kinematic channels. Throws Error.
 Json rig_info(const std::filesystem::path& rig_file);
 
 }  // namespace risorius::cli

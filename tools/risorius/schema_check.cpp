@@ -36,7 +36,7 @@ std::unique_ptr<valijson::Schema> read_schema(const std::string& format) {
     const nlohmann::json document = read_plain(schema_folder() / (format + kEnding));
     auto schema = std::make_unique<valijson::Schema>();
     valijson::SchemaParser parser(valijson::SchemaParser::kDraft7);
-    // A schema may refer to another one of the folder by its file name.
+    // A schema may refer to another schema of the folder by its file name.
     parser.populateSchema(
         NlohmannJsonAdapter(document), *schema,
         [](const std::string& uri) {
@@ -47,7 +47,7 @@ std::unique_ptr<valijson::Schema> read_schema(const std::string& format) {
     return schema;
 }
 
-/// "/channels/jaw_open" of {"<root>", "[channels]", "[jaw_open]"}
+/// The JSON pointer "/channels/jaw_open" of the context {"<root>", "[channels]", "[jaw_open]"}.
 std::string pointer_of(const std::vector<std::string>& context) {
     std::string pointer;
     for (std::size_t i = 1; i < context.size(); ++i)
@@ -70,12 +70,12 @@ std::vector<std::string> schema_formats() {
 
 void check_against_schema(const JsonCursor& json, const std::string& format) {
     const std::unique_ptr<valijson::Schema> schema = read_schema(format);
-    // A copy in the form that the validator knows
+    // The validator needs a copy of another JSON type.
     const nlohmann::json document = nlohmann::json::parse(json.json().dump());
     valijson::ValidationResults results;
     valijson::Validator validator;
     if (validator.validate(*schema, NlohmannJsonAdapter(document), &results)) return;
-    // The innermost finding says the most; those around it only repeat that something inside is wrong.
+    // The innermost error is the most specific; outer ones only repeat that something inside is wrong.
     valijson::ValidationResults::Error finding, innermost;
     while (results.popError(finding))
         if (innermost.context.empty() || finding.context.size() > innermost.context.size())

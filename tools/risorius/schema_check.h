@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Holds a file of the toolkit against the JSON Schema of its format.
+/// Checks a file of the toolkit against the JSON Schema of its format.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace risorius::cli {
 
-/// Formats that have a schema, such as "risorius-script", in order of name.
+/// Formats that have a schema, such as "risorius-script", sorted by name.
 std::vector<std::string> schema_formats();
 
-/// Throws Error with the place and what the schema expects there when the file does not follow the schema of `format`.
+/// Throws Error with the place, and what the schema expects there, when the file does not follow the schema of `format`.
 void check_against_schema(const JsonCursor& json, const std::string& format);
 
 }  // namespace risorius::cli

@@ -53,7 +53,7 @@ void print(const blendshapes::ShapesReport& report, const blendshapes::ShapesOpt
             "%s, %d frames: linear rig off the simulation by %.2f mm RMS, %.2f at most; "
             "without correctives %.2f, %.2f; %.2f ms a frame\n",
             track.name.c_str(), track.frames, 1e3 * track.rms_m, 1e3 * track.max_m,
-            1e3 * track.plain_rms_m, 1e3 * track.plain_greatest_m, 1e3 * track.play_s);
+            1e3 * track.plain_rms_m, 1e3 * track.plain_max_m, 1e3 * track.play_s);
     if (!report.correctives.tried.empty())
         std::printf("%zu correctives for what %zu pairs and halves lack\n",
                     report.correctives.rig.correctives.size(), report.correctives.tried.size());

@@ -42,7 +42,7 @@ void run(SolveArguments& arguments) {
         print(report, arguments.options);
 }
 
-// An option of earlier versions: it is not listed, and it works with a note that names the new one.
+// Adds an option of an earlier version. It is hidden, and works with a note that names the new option.
 void add_old_name(CLI::App& command, const std::string& old_name, const std::string& new_name,
                   double& value) {
     command

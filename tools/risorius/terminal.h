@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The progress bar of the program, and its reaction to Ctrl-C.
+/// The progress bar of the program, and the handling of Ctrl-C.
 #pragma once
 
 #include <chrono>
@@ -24,15 +24,16 @@ struct Common {
 /// Adds --quiet and --json to a command.
 void add_common(CLI::App& command, Common& common);
 
-/// From now on SIGINT and SIGTERM end a run between two frames, and the program removes what is incomplete.
+/// From now on, SIGINT and SIGTERM end a run between two frames; the program then removes incomplete files.
 void catch_interrupts();
 
-/// Shows progress on standard error for runs longer than two seconds. If that is not a terminal, it writes a line every half minute.
+/// Shows progress on standard error for runs longer than two seconds. If standard error is not a terminal, it writes a line every
+/// half minute.
 class ProgressBar {
   public:
     explicit ProgressBar(const Common& common);
     ~ProgressBar();
-    /// Reports progress to this bar, and asks to stop after Ctrl-C.
+    /// A monitor that reports to this bar, and asks to stop after Ctrl-C.
     ProgressMonitor monitor();
 
   private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// sculpt: makes the embedded head from its design tables. See models/adult/ORIGIN.md.
+// sculpt: makes the built-in head from its design tables. See models/adult/ORIGIN.md.
 #include <cstdio>
 #include <string>
 

@@ -67,7 +67,7 @@ RunRecord animate(const RenderRequest& request, const ProgressMonitor& monitor) 
     RenderResult result = run_render_job(
         job, session, [&](Image image) { output.append(std::move(image)); }, monitor);
 
-    // All files appear, or none
+    // All files appear together, or none.
     report::AtomicFile frame_table(table_file, result.table);
     const report::Stopwatch closing;
     output.finish();

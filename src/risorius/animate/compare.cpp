@@ -42,7 +42,7 @@ class SideFile {
 
 Image joined(const Image& left, const Image& right) {
     Image out(left.width_px + kGap_px + right.width_px, left.height_px);
-    for (std::size_t i = 0; i < out.rgba.size(); ++i)  // between them white
+    for (std::size_t i = 0; i < out.rgba.size(); ++i)  // white between the sides
         out.rgba[i] = 255;
     for (int y = 0; y < left.height_px; ++y) {
         std::copy_n(left.pixel(0, y), 4 * left.width_px, out.pixel(0, y));
@@ -69,7 +69,7 @@ void write_caption(const std::string& text, Image& image) {
 
 Json compare(const RenderRequest& left_request, const RenderRequest& right_request,
              const ProgressMonitor& monitor) {
-    // Plan both, alike but for what is compared
+    // Plan both sides; they are equal except for what is compared.
     RenderInputs inputs;
     const RenderJob left = plan_render_job(left_request, inputs);
     RenderRequest alike = right_request;
@@ -77,7 +77,7 @@ Json compare(const RenderRequest& left_request, const RenderRequest& right_reque
     alike.fps = left.fps;
     alike.size = PictureSize{left.view.width_px, left.view.height_px};
     alike.camera = left.view.camera;
-    alike.marks = {};  // marks on the left side are enough
+    alike.marks = {};  // the marks of the left side are sufficient
     const RenderJob right = plan_render_job(alike, inputs);
     media::VideoOptions coding = left.video;
     coding.width_px = 2 * left.view.width_px + kGap_px;
@@ -87,7 +87,7 @@ Json compare(const RenderRequest& left_request, const RenderRequest& right_reque
                                report::output_path(left.out, ".right.frames.tsv")};
     report::check_record(record);
     for (const fs::path& table : tables) report::check_table(table);
-    media::VideoWriter video(left.out, coding);  // makes the folder too
+    media::VideoWriter video(left.out, coding);  // also makes the folder
 
     const auto half = [&](double begun) {
         ProgressMonitor part = monitor;
@@ -130,7 +130,7 @@ Json compare(const RenderRequest& left_request, const RenderRequest& right_reque
     });
     while (shown < before.frames()) show();
 
-    // All files appear, or none
+    // All files appear together, or none.
     Json json{{"format", "risorius-comparison"}, {"version", 1}, {"frames", shown}};
     json["left"] = results[0].record.json();
     json["right"] = results[1].record.json();

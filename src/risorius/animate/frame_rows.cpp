@@ -10,7 +10,8 @@ namespace risorius::animate {
 namespace {
 
 constexpr double kOnset_m = 0.3e-3, kOnsetFraction = 0.05;
-constexpr double kApexFraction = 0.99;  // a held face still creeps by micrometres
+// Less than 1 because a held face still moves by micrometres
+constexpr double kApexFraction = 0.99;
 
 std::vector<std::string> split(const std::string& text, char by) {
     std::vector<std::string> out;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Reads a table of frames (frame_table.h) back into rows of cells under column names.
+/// Reads a table of frames (frame_table.h) back into rows of cells with column names.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@ namespace risorius::animate {
 
 struct FrameRows {
     std::vector<std::string> names;
-    std::vector<std::vector<std::string>>
-        cells;  ///< text as written; a row has one cell for each name
+    /// Text as written, one cell per column in each row
+    std::vector<std::vector<std::string>> cells;
 
     int rows() const { return static_cast<int>(cells.size()); }
     int column(const std::string& name) const;  ///< -1 when there is no such column
     double number(int row, int column) const;
 };
 
-/// `table`: the text of FrameTable::text().
+/// Parses a table. `table`: the text of FrameTable::text().
 FrameRows frame_rows(const std::string& table);
 
 /// For each frame: the maximum displacement of a landmark from the first frame, m. Zeros without landmarks.

@@ -63,7 +63,7 @@ std::string times_of(const RenderJob& job) {
     return "a time in [0, " + format_number(job.script.header.duration_s) + "]";
 }
 
-/// A still has neither sound nor an encoder.
+/// A still has no sound and needs no encoder.
 void check_still(const RenderRequest& request) {
     const media::VideoOptions& video = request.video;
     for (const auto& [given, name] :
@@ -158,7 +158,7 @@ void plan_view(const RenderRequest& request, RenderJob& job) {
         throw Error(option_name("shutter_deg"), "degrees in [0, 360]",
                     format_number(job.shutter_deg));
     view.light = light_of(asked.light);
-    // The threads of the driver are shared by all renders of the process
+    // All renders of the process share the threads of the driver.
     const int drawing = request.threads * request.renders_at_once;
     view.threads = drawing > 1 ? drawing : 0;
     index_of_name(option_name("camera"), view.camera, render::camera_names());
@@ -168,7 +168,7 @@ void plan_view(const RenderRequest& request, RenderJob& job) {
                         std::to_string(side));
 }
 
-/// What the picture shows must be something that the request and the script can give.
+/// The request and the script must provide what the picture shows.
 void check_show(const RenderRequest& request, const RenderJob& job) {
     const std::string shown = request.show.value_or(job.script.header.view.show);
     const bool compared = job.view.show == render::Show::kError;
@@ -250,7 +250,7 @@ ScriptInput script_input(const RenderRequest& request, RenderInputs& inputs) {
     return *inputs.script(request.script);
 }
 
-/// The rig and, checked against it, the script and what the script is compared with.
+/// Reads the rig, and checks the script and the script to compare with against it.
 void plan_rig_and_script(const RenderRequest& request, const JsonCursor& script,
                          RenderInputs& inputs, RenderJob& job) {
     job.rig = inputs.rig(request.rig.value_or(job.script.header.rig_file));
@@ -284,7 +284,7 @@ RenderJob plan_render_job(const RenderRequest& request, RenderInputs& inputs) {
     job.script.header = track::read_script_header(script.json);
     if (!request.rig) existing_file(script.json.at("rig"));
 
-    // Fast checks first
+    // Fast checks come first.
     job.quality = face::quality_named(quality_of(request)).name;
     plan_rate(request, job);
     plan_view(request, job);
@@ -292,7 +292,7 @@ RenderJob plan_render_job(const RenderRequest& request, RenderInputs& inputs) {
     check_marks(request.marks, job);
     plan_passes(request, job);
     job.video = video_options(request, job);
-    // Scales, lines and marks are drawn in 8 bits
+    // Scales, lines and marks are drawn with 8 bits only.
     job.view.deep = job.video.bits == 16 && job.view.show == render::Show::kSkin;
     plan_times(request, job);
 

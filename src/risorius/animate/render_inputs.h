@@ -29,7 +29,7 @@ struct RigInput {
     std::vector<InputFile> tables;  ///< other files that the rig names
 };
 
-/// Keeps what it has read. Several threads may use one.
+/// Keeps the files that it has read. Several threads may use the same object.
 class RenderInputs {
   public:
     /// Throws Error when the file cannot be read or is not JSON.
@@ -43,7 +43,7 @@ class RenderInputs {
     std::map<std::filesystem::path, std::shared_ptr<const RigInput>> rigs_;
 };
 
-/// The checksum of text or other bytes.
+/// The SHA-256 of text or other bytes, in hexadecimal.
 std::string sha256_of_text(const std::string& text);
 
 }  // namespace risorius::animate

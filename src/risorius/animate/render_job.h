@@ -16,29 +16,31 @@
 
 namespace risorius::animate {
 
+/// A complete plan of one render.
 struct RenderJob {
-    // What it reads
+    // Inputs
     InputFile script_file;
-    track::ScriptDescription script;  ///< as written: what the request changes stands below
+    /// As written in the file; the fields below hold the changes of the request
+    track::ScriptDescription script;
     std::shared_ptr<const RigInput> rig;
-    std::vector<InputFile> recordings;  ///< that the script names
+    std::vector<InputFile> recordings;  ///< recordings that the script names
     std::optional<InputFile> shapes;    ///< blend shapes that play the script
-    std::optional<track::ScriptDescription>
-        reference;  ///< show "error": the script to compare with
+    /// For show "error": the script to compare with
+    std::optional<track::ScriptDescription> reference;
 
-    // Which frames
+    // Frames
     int fps = 60, frames = 0;
     double first_frame_s = 0;     ///< 0 except for a still, a turntable and given times
-    std::vector<double> times_s;  ///< of every frame when they are not evenly spaced; else empty
-    bool turntable = false;  ///< all frames show first_frame_s; the head turns once round in them
-    bool still = false;      ///< one picture instead of a video
+    std::vector<double> times_s;  ///< times of the frames if they are not evenly spaced; else empty
+    bool turntable = false;       ///< all frames show first_frame_s while the head makes one turn
+    bool still = false;           ///< one picture instead of a video
 
-    /// Motion blur: the shutter is open for this fraction of a frame, 360 deg, half of it before the frame's time. The picture is
+    /// Motion blur: the shutter is open for shutter_deg / 360 of a frame, half of it before the frame's time. The picture is
     /// the mean, in linear light, of kShutterMoments moments at the midpoints of equal intervals. 0: the frame's time only.
     double shutter_deg = 0;
     static constexpr int kShutterMoments = 9;
     int moments() const { return shutter_deg > 0 ? kShutterMoments : 1; }
-    /// From the frame's time to that of a moment, in frames.
+    /// Offset of a moment from the time of its frame, in frames.
     double moment_offset(int moment) const {
         return shutter_deg / 360 * (moment - (moments() - 1) / 2) / moments();
     }
@@ -47,33 +49,33 @@ struct RenderJob {
         return turntable ? first_frame_s : first_frame_s + static_cast<double>(frame) / fps;
     }
 
-    // How it is simulated and drawn
-    std::string quality;  ///< face::quality_named
+    // Simulation and view
+    std::string quality;  ///< a name of face::quality_named()
     render::ViewOptions view;
     std::optional<double> scale;  ///< where the colours of strain (ratio) or error (mm) end
     SyncMarks marks;
     bool flipped_motion = false;  ///< see RenderRequest
     int threads = 2;
 
-    // What it writes
+    // Outputs
     std::filesystem::path out;
     std::filesystem::path passes_folder;
-    std::vector<std::string> passes;  ///< of pass_names()
-    bool landmarks = false;           ///< their places in the table
-    bool emg = false;                 ///< simulated electromyograms in the table
+    std::vector<std::string> passes;  ///< names of pass_names()
+    bool landmarks = false;           ///< whether the table has the positions of landmarks
+    bool emg = false;                 ///< whether the table has simulated EMG
     media::VideoOptions video;
 
-    double planning_s = 0;  ///< how long plan_render_job() took
+    double planning_s = 0;  ///< time that plan_render_job() took
 
-    std::string background_text() const;  ///< as a script writes it
+    std::string background_text() const;  ///< as written in a script
 };
 
-/// Reads every input once, checks it and the request, and refuses now what would fail after minutes. Only the
-/// blend shapes and the folder of passes are opened when the run begins, as they need the face. Throws Error naming the option, or
-/// the file and the place in it.
+/// Reads every input once, checks it and the request, and rejects what would otherwise fail after minutes of rendering. Only the
+/// blend shapes and the folder of passes are opened later, because they need the face. Throws Error naming the option, or the
+/// file and the place in it.
 RenderJob plan_render_job(const RenderRequest& request);
 
-/// The same for several jobs: files that they have in common are read once.
+/// The same for several jobs; files that they share are read once.
 RenderJob plan_render_job(const RenderRequest& request, RenderInputs& inputs);
 
 }  // namespace risorius::animate

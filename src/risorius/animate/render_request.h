@@ -18,12 +18,13 @@ struct PictureSize {
     int width_px = 0, height_px = 0;
 };
 
-/// Marks for machines that watch the screen. Corners have the names of media::corner_names(). See media/sync_marks.h.
+/// Synchronization marks for measuring devices in front of the screen. Corners have the names of media::corner_names(). See
+/// media/sync_marks.h.
 struct SyncMarks {
-    std::optional<std::string> photodiode, frame_counter;  ///< the corner of each; none: not drawn
+    std::optional<std::string> photodiode, frame_counter;  ///< corner of each mark; none: not drawn
     int photodiode_px = 64;                                ///< side of the photodiode's square
     int frame_counter_px = 8;                              ///< side of a cell of the counter
-    /// When the square is white. "frames": in even frames; "events": in the frame with which an event begins.
+    /// When the square is white. "frames": in even frames; "events": in the first frame of each event.
     std::string photodiode_shows = "frames";
 };
 
@@ -45,31 +46,33 @@ struct RenderRequest {
     /// How the video is encoded. Size, rate, transparency and sound are set by plan_render_job().
     media::VideoOptions video{};
     std::optional<std::filesystem::path> audio;  ///< WAV or FLAC
-    /// Samples from the first frame to the first sample of the recording, at the recording's own rate.
+    /// Delay of the recording relative to the first frame, in samples at the recording's own rate.
     std::optional<std::int64_t> audio_offset;
     SyncMarks marks{};
     std::optional<double> shutter_deg;  ///< 0..360: motion blur; see RenderJob::shutter_deg
-    std::vector<std::string> passes;  ///< of pass_names(): ground truth, as pictures in OUT.passes
-    std::optional<double> turntable_s;             ///< the face of this time, turned once round
+    /// Names of pass_names(): ground truth pictures in OUT.passes
+    std::vector<std::string> passes;
+    std::optional<double> turntable_s;             ///< the face at this time makes one turn
     std::optional<std::filesystem::path> against;  ///< show "error": the script to compare with
     std::optional<double> scale;  ///< where the colours of strain (ratio) or error (mm) end
     std::vector<double> times_s;  ///< ascending: a frame at each of these times, and no others
-    std::optional<std::string>
-        quality;  ///< face::quality_named; not given: "video", for a draft "draft"
-    std::optional<int>
-        antialiasing;  ///< samples per pixel and side, 1..4; not given: for a draft 1
-    /// Mirrors vertical motion: what would go up goes down by as much. No real face can move so. The head must keep still.
+    /// A name of face::quality_named(); default: "video", or "draft" for a draft
+    std::optional<std::string> quality;
+    /// Samples per pixel and side, 1..4; default for a draft: 1
+    std::optional<int> antialiasing;
+    /// Mirrors vertical motion: vertices move down instead of up and the other way round. No real face moves like this; it is a
+    /// control stimulus. The head must not move.
     bool flipped_motion = false;
     bool draft = false;  ///< a fast preview: options that are not given take their fastest value
-    bool landmarks = false;  ///< adds the places of the landmarks to the table
+    bool landmarks = false;  ///< adds the positions of landmarks to the table
     bool emg = false;        ///< adds simulated surface electromyograms to the table
-    /// 1, or more to simulate and draw at the same time, with several frames drawn at once. The frames are the same.
+    /// 1, or more to simulate and draw at the same time, with several frames drawn in parallel. The frames do not depend on it.
     int threads = 2;
-    int renders_at_once =
-        1;  ///< renders in this process, this one included; the frames are the same
+    /// Number of renders in this process, this one included; the frames do not depend on it
+    int renders_at_once = 1;
 };
 
-/// The quality of the simulation: the one that is given, or else the default.
+/// The quality of the simulation: the requested one, or else the default.
 std::string quality_of(const RenderRequest& request);
 
 }  // namespace risorius::animate

@@ -35,7 +35,7 @@ const render::Scene& RenderSession::scene(const render::ViewOptions& view, int v
         skull_ = face::estimate_skull(face_->head(), rig_->files.rig);
         scene_->bones = scene::bones_for_view(*skull_);
     }
-    // The first view is made here, since the others need it. They are made on the threads that draw with them
+    // The first view is made here, because the others share its data. The others are made on the threads that draw with them.
     views_.resize(wanted);
     views_[0] = std::make_unique<render::OffscreenView>(*scene_, view);
     options_ = view;

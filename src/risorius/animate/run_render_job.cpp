@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a job to pictures: the file to read first. JobRun::run() is the loop over the frames.
+// From a job to pictures. Start reading here: JobRun::run() is the loop over the frames.
 #include "risorius/animate/run_render_job.h"
 
 #include <algorithm>
@@ -31,10 +31,10 @@ namespace risorius::animate {
 
 namespace {
 
-/// More views than this would only wait for the simulation.
+/// More views would only wait for the simulation
 constexpr int kMaxViews = 4;
 
-// A jaw that follows its channels ignores the muscles that would otherwise move it.
+// Warns about muscles of the jaw, which have no effect while channels move it.
 std::vector<std::string> warnings_about(const track::ScriptDescription& script,
                                         const rig::MuscleTable& muscles) {
     std::vector<std::string> out;
@@ -49,7 +49,7 @@ std::vector<std::string> warnings_about(const track::ScriptDescription& script,
     return out;
 }
 
-/// What of the record is known before the first frame.
+/// The part of the record that is known before the first frame.
 RunRecord describe(const RenderJob& job, const face::Face& face) {
     RunRecord record;
     record.script = job.script_file;
@@ -102,12 +102,12 @@ face::FacePose turned(face::FacePose pose, double angle_rad) {
     return pose;
 }
 
-/// Mirrors vertical motion: each vertex goes as far below its place at rest as it was above it.
+/// Mirrors vertical motion: each vertex is as far below its rest position as it was above it.
 void flip_motion(const Points& rest, face::FacePose& pose) {
     pose.vertices.col(1) = 2 * rest.col(1) - pose.vertices.col(1);
 }
 
-/// The face of the session, made ready for the job's script.
+/// The face of the session, prepared for the job's script.
 face::Face& ready_face(const RenderJob& job, RenderSession& session) {
     const track::ScriptHeader& header = job.script.header;
     face::Face& face = session.face(job.rig, face::quality_named(job.quality));
@@ -127,8 +127,8 @@ std::optional<blendshapes::ShapePlayer> player_of(const RenderJob& job, face::Fa
         channels);
 }
 
-/// One run of a job. Each frame passes simulate(), draw() and show(). The three run on different threads and share no members that
-/// change.
+/// One run of a job. Each frame passes simulate(), draw() and show(). These run on different threads and share no mutable
+/// members.
 class JobRun {
   public:
     JobRun(const RenderJob& job, RenderSession& session, const UsePicture& use,
@@ -225,7 +225,7 @@ class JobRun {
             job_.turntable ? 2 * std::numbers::pi * (frame + offset) / job_.frames : 0.0;
         if (job_.turntable) pose = turned(std::move(pose), angle_rad);
         const Eigen::VectorXd activation = shapes_ ? played->excitation : face_.activation_at(t_s);
-        // The middle moment is the frame's own time: the table is about it
+        // The table has the middle moment, which is the time of the frame.
         if (moment == job_.moments() / 2) table_.add(frame, t_s, driven(t_s), activation, pose);
         RunRecord& record = result_.record;
         record.max_jaw_opening_mm = std::max(record.max_jaw_opening_mm, 1e3 * pose.jaw.open_m);
@@ -235,7 +235,7 @@ class JobRun {
         return seen(pose, activation, t_s, angle_rad);
     }
 
-    /// Steps the face until pose_at(t_s) can be asked. For a still this is all that leads up to it.
+    /// Steps the face until pose_at(t_s) is available. For a still this simulates everything before it.
     void simulate_until(double t_s, bool first) {
         if (first) face_.start(drive_);
         while (job_.script.header.motion == track::Motion::kDynamic &&
@@ -245,7 +245,7 @@ class JobRun {
         }
     }
 
-    /// The pose as the view draws it, with muscles, bones and colours.
+    /// The pose for the view, with muscles, bones and colours.
     render::Pose seen(const face::FacePose& pose, const Eigen::VectorXd& activation, double t_s,
                       double angle_rad) {
         render::Pose out = scene::pose_for_view(pose);
@@ -268,7 +268,7 @@ class JobRun {
                      drawing.seconds()};
     }
 
-    /// Measures, marks and hands on one picture.
+    /// Measures and marks one picture and passes it on.
     void show(int frame, Drawn drawn) {
         monitor_.report(static_cast<double>(frame) / job_.frames, kRendering);
         RunTiming& timing = result_.record.timing;

@@ -24,12 +24,13 @@ using UsePicture = std::function<void(Image)>;
 
 struct RenderResult {
     RunRecord record;
-    std::string table;                   ///< the text of frame_table.h
-    std::unique_ptr<PassWriter> passes;  ///< written, not yet committed; null when the job has none
+    std::string table;  ///< the text of frame_table.h
+    /// Complete, but not yet committed; null when the job has none.
+    std::unique_ptr<PassWriter> passes;
 };
 
-/// Throws Error for wrong input and Interrupted when the monitor asks to stop. A session that has run a similar job before makes
-/// the same frames sooner.
+/// Runs a job. Throws Error for wrong input and Interrupted when the monitor asks to stop. A session that has run a similar job
+/// before makes the frames faster.
 RenderResult run_render_job(const RenderJob& job, RenderSession& session, const UsePicture& use,
                             const ProgressMonitor& monitor);
 

@@ -36,14 +36,14 @@ void check_sheet(const SheetOptions& options) {
     report::check_record(report::output_path(options.out, ".json"));
 }
 
-/// "samples/smile/script.json" -> "smile", "mine/wink.json" -> "wink": the name of the folder when the file has the usual name.
+/// "samples/smile/script.json" -> "smile", "mine/wink.json" -> "wink": the name of the folder if the file has the usual name.
 std::string short_name(const std::filesystem::path& file, const char* usual) {
     const std::string stem = file.stem().string();
     const std::string folder = std::filesystem::absolute(file).parent_path().filename().string();
     return stem == usual ? folder : stem;
 }
 
-/// The picture shrunk until it fits into a cell of the sheet, on white.
+/// The picture scaled down to fit a cell of the sheet, on white.
 Image fitted(const Image& picture, int width_px, int height_px) {
     const double scale = std::min({static_cast<double>(width_px) / picture.width_px,
                                    static_cast<double>(height_px) / picture.height_px, 1.0});
@@ -58,7 +58,7 @@ Image fitted(const Image& picture, int width_px, int height_px) {
     return out;
 }
 
-/// Rows of pictures from elsewhere, as many to a row as the sheet has columns.
+/// Rows of other pictures, with as many per row as the sheet has columns.
 std::vector<report::ContactRow> rows_beside(const std::vector<std::filesystem::path>& files,
                                             std::size_t columns, int width_px, int height_px) {
     std::vector<report::ContactRow> rows;
@@ -76,7 +76,7 @@ std::vector<report::ContactRow> rows_beside(const std::vector<std::filesystem::p
     return rows;
 }
 
-/// A job for each script and rig. All have the size of the first one.
+/// One job per script and rig. All have the size of the first.
 std::vector<RenderJob> plan_jobs(const SheetOptions& options) {
     RenderRequest request = options.view;
     request.out = options.out;

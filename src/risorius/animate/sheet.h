@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Frames of scripts side by side on one picture: a row for each script and head, a column for each time.
+/// Frames of scripts side by side in one picture: one row per script and head, one column per time.
 #pragma once
 
 #include <filesystem>
@@ -13,19 +13,20 @@
 
 namespace risorius::animate {
 
+/// Options of make_sheet().
 struct SheetOptions {
     std::vector<std::filesystem::path> scripts;  ///< at least one
     std::vector<std::filesystem::path> rigs;     ///< empty: each script with its own rig
     std::vector<double> times_s;                 ///< at least one, in the order of the columns
-    std::vector<std::string>
-        cameras;  ///< empty: the one of `view`; else every time is shown by each
-    std::vector<std::filesystem::path>
-        beside;                 ///< .png files to compare with, in rows of their own
+    /// Empty: the camera of `view`; else every time is shown by each camera
+    std::vector<std::string> cameras;
+    /// .png files to compare with, in rows of their own
+    std::vector<std::filesystem::path> beside;
     std::filesystem::path out;  ///< .png
     RenderRequest view;         ///< only size, camera, show, quality and threads are used
 };
 
-/// Writes OUT and OUT.json, the records of all runs. Throws Error, RunError and Interrupted.
+/// Writes OUT and OUT.json with the records of all runs. Throws Error, RunError and Interrupted.
 Json make_sheet(const SheetOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::animate

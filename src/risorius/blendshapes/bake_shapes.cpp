@@ -32,7 +32,7 @@ Json shape_json(const MadeShape& made, const std::vector<MadeShape>& all) {
     return out;
 }
 
-// The greatest of every number over all shapes.
+// The worst value of every measure over all shapes.
 Json worst_of(const MadeShapes& shapes) {
     Json out = Json::object();
     const auto max = [&](const char* name, auto&& value) {
@@ -59,7 +59,7 @@ Json worst_of(const MadeShapes& shapes) {
     return out;
 }
 
-constexpr unsigned kTestSeed = 20051, kFitSeed = 1;  // any would do, if they are not the same
+constexpr unsigned kTestSeed = 20051, kFitSeed = 1;  // arbitrary, but they must differ
 constexpr long kFittedOfScript = 24;
 
 Json correctives_json(const Correctives& found) {
@@ -72,7 +72,7 @@ Json correctives_json(const Correctives& found) {
                          {"max_mm", 1e3 * one.max_m},
                          {"rms_mm", 1e3 * one.rms_m},
                          {"at_rest", one.at_rest},
-                         {"put_right", one.put_right}});
+                         {"put_right", one.corrected}});
     return {{"kept", kept}, {"terms", drivers}, {"tried", tried}, {"bytes", found.bytes}};
 }
 
@@ -86,11 +86,11 @@ Json tracks_json(const std::vector<TrackError>& tracks) {
                        {"worst_frame", track.frame_of(track.worst)},
                        {"worst_vertex", track.worst_vertex},
                        {"rms_without_correctives_mm", 1e3 * track.plain_rms_m},
-                       {"max_without_correctives_mm", 1e3 * track.plain_greatest_m}});
+                       {"max_without_correctives_mm", 1e3 * track.plain_max_m}});
     return out;
 }
 
-/// So many of a track's frames, evenly.
+/// Indices of frames of a track, evenly spaced.
 std::vector<long> some_frames(long all, int wanted) {
     std::vector<long> out;
     const long count = std::min<long>(all, wanted);
@@ -103,7 +103,7 @@ bool wants(const ShapesOptions& options, const char* format) {
                                                 format) != options.formats.end();
 }
 
-// Blend shapes do not turn the head.
+// The drive without motion of the head, which blend shapes do not have.
 track::Drive unturned(track::Drive drive) {
     for (int k = static_cast<int>(track::Kinematic::kHeadYaw);
          k <= static_cast<int>(track::Kinematic::kHeadSide); ++k)
@@ -111,7 +111,7 @@ track::Drive unturned(track::Drive drive) {
     return drive;
 }
 
-// Frames that correctives are to be good for: of the script, and of a set of action units such as meet in faces.
+// The frames that correctives are fitted to: frames of the script, and of a track of action units as they occur in faces.
 ScriptFrames frames_to_fit(const ShapesReport& report, const track::ChannelTable& channels,
                            int random_frames) {
     ScriptFrames out;
@@ -121,7 +121,7 @@ ScriptFrames frames_to_fit(const ShapesReport& report, const track::ChannelTable
     const long scripted = report.animation ? report.animation->weights.rows() : 0;
     out.weights.resize(scripted + static_cast<long>(random.size()), shapes);
     if (scripted > 0) out.weights.topRows(scripted) = report.animation->weights;
-    // From the first one on: between the frames that the rig is compared at
+    // Starts at the first frame, so that these frames lie between those on which the rig is tested.
     const long some = std::min(kFittedOfScript, scripted);
     for (long i = 0; i < some; ++i) {
         out.simulated.push_back(i * scripted / some);
@@ -137,7 +137,7 @@ ScriptFrames frames_to_fit(const ShapesReport& report, const track::ChannelTable
     return out;
 }
 
-// The linear rig against the simulation, frame by frame.
+// Compares the blend shape rig with the simulation, frame by frame.
 std::vector<TrackError> compare_tracks(const scene::RigFiles& files, const ShapeSolver& solver,
                                        const ShapesOptions& options, const ShapesReport& report,
                                        const ProgressMonitor& monitor) {
@@ -226,7 +226,7 @@ ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& mo
     const ShapeSet set = shape_set(files.rig, options.set, options.only, files.place());
     report::AtomicFolder folder(options.out);
 
-    // About, of the time of a run
+    // Approximate fractions of the run time
     const double solved = 0.35, corrected = options.correctives ? 0.65 : solved,
                  compared = options.test_frames > 0 ? corrected + 0.15 : corrected;
     const report::Stopwatch time;
@@ -264,7 +264,7 @@ ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& mo
     report.vertices = static_cast<int>(head.vertices.rows());
     report.nodes = solver.face().diagnostics().node_count();
 
-    // What other programs read
+    // Files for other programs
     std::vector<std::string> written{"index.html", "results.json"};
     const auto keep = [&](const std::vector<std::string>& names) {
         written.insert(written.end(), names.begin(), names.end());
@@ -285,7 +285,7 @@ ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& mo
         report::write_text(folder.partial() / "live_link.csv", live_link_table(*report.animation));
         keep({"live_link.csv"});
     }
-    // Of some size, so only when it is asked for by name
+    // The cache is large, so it is written only on request.
     if (report.animation && !options.formats.empty() && wants(options, "cache"))
         keep(write_vertex_cache(files, head, report.correctives.rig, *report.animation,
                                 folder.partial()));
@@ -293,7 +293,7 @@ ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& mo
         keep(write_shape_table(files, head, report.shapes, folder.partial()));
     if (wants(options, "obj")) keep(write_shape_objs(files, head, report.shapes, folder.partial()));
 
-    // What people look at
+    // Files for people
     std::optional<ShapesPictures> pictures;
     if (options.pictures) {
         pictures =

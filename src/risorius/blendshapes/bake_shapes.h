@@ -16,28 +16,30 @@
 
 namespace risorius::blendshapes {
 
+/// Options of bake_shapes().
 struct ShapesOptions {
     std::filesystem::path rig = {}, out = {};  ///< out: a folder
     std::string set = "arkit52";
     std::vector<std::string> only = {};     ///< names of shapes; empty: the whole set
-    std::string quality = "preview";        ///< of the mesh that is simulated
+    std::string quality = "preview";        ///< face::quality_named(): the mesh of the simulation
     std::vector<std::string> formats = {};  ///< of shape_formats(); empty: all but "cache"
-    bool floats = false;                    ///< in the .glb, in place of 16-bit whole numbers
+    bool floats = false;                    ///< in the .glb, instead of 16-bit integers
     bool pictures = true;
     bool correctives = true;
-    /// In place of correctives_of_set()
+    /// These replace the values of correctives_of_set().
     std::optional<int> pairs = {};
     std::optional<double> corrective_tolerance_m = {};
     std::optional<long> corrective_bytes = {};
-    int test_frames =
-        24;  ///< frames of each track on which the blend shapes are compared with the simulation; 0: none
+    /// Frames of each track on which the blend shapes are compared with the simulation; 0: none
+    int test_frames = 24;
     std::filesystem::path script = {};  ///< script that is converted to weights; empty: none
-    int threads = 0;  ///< 0 = as many as the machine has; results do not depend on it
+    int threads = 0;  ///< 0: as many as the machine has; results do not depend on it
 };
 
-/// "glb", "obj", "table"; with a script also "csv" and "cache"
+/// The formats "glb", "obj", "table"; with a script also "csv" and "cache".
 const std::vector<std::string>& shape_formats();
 
+/// What was made, and how well it agrees with the simulation.
 struct ShapesReport {
     std::string name;  ///< name of the rig
     std::string rig, set, quality;
@@ -45,19 +47,20 @@ struct ShapesReport {
     MadeShapes shapes;
     Correctives correctives;                  ///< the shapes and their correctives
     std::vector<TrackError> tracks;           ///< errors of the blend shapes against the simulation
-    std::optional<ShapeAnimation> animation;  ///< of the script
-    std::vector<std::pair<std::string, std::string>> left_out;  ///< name, why
+    std::optional<ShapeAnimation> animation;  ///< converted from the script
+    std::vector<std::pair<std::string, std::string>> left_out;  ///< name and reason
     int vertices = 0, nodes = 0;
     double solving_s = 0;                             ///< wall time
     std::vector<std::pair<std::string, long>> sizes;  ///< file, bytes
 
-    /// Number of shapes that exceed a limit.
+    /// Number of shapes with a value beyond a limit.
     int complaints() const;
-    /// Without times, so that the same rig gives the same bytes.
+    /// The report without times, so that the same rig gives the same bytes.
     Json json() const;
 };
 
-/// Throws Error when the rig cannot be used, Interrupted; then no files are left.
+/// Makes the shapes and writes their files. Throws Error when the rig cannot be used and Interrupted when the monitor asks to
+/// stop; then no files are left.
 ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::blendshapes

@@ -13,9 +13,9 @@ namespace risorius::blendshapes {
 
 namespace {
 
-constexpr double kSamePlace_m = 1e-4;  // of vertices, after they have been rounded in a file
+constexpr double kSamePlace_m = 1e-4;  // tolerance of vertex positions, which a file rounds
 
-// Vertices have to lie where the rig's mesh has them, or shapes would move others than they are meant to.
+// Checks that the vertices lie where the rig's mesh has them; otherwise shapes would move the wrong vertices.
 void check_mesh(const io::MorphModel& model, const rig::Head& head,
                 const std::filesystem::path& file) {
     const auto fail = [&](const std::string& found) {
@@ -47,7 +47,7 @@ ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const scene:
     ShapesOfFile out;
     out.set = extras.at("set").string();
 
-    // Correctives come behind the shapes, in the order of their list
+    // Correctives follow the shapes in the order of their list.
     const std::vector<JsonCursor> correctives = extras.at("correctives").items();
     if (correctives.size() >= model.targets.size())
         extras.at("correctives").fail("fewer of them than morph targets");
@@ -101,13 +101,13 @@ ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const scene:
 
 ShapePlayer::ShapePlayer(ShapesOfFile shapes, face::Face& face, const track::ChannelTable& channels)
     : shapes_(std::move(shapes)),
-      played_(shapes_.rig),
+      packed_(shapes_.rig),
       face_(face),
       weights_(face, channels, shapes_.goals) {}
 
 face::FacePose ShapePlayer::pose(const track::Drive& drive) const {
     Points vertices = face_.head().vertices;
-    played_.add_to(vertices, shapes_.rig.all_weights(weights_.of(drive)));
+    packed_.add_to(vertices, shapes_.rig.all_weights(weights_.of(drive)));
     return face_.surfaces().posed(std::move(vertices), drive);
 }
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Plays scripts with blend shapes instead of the simulation: the drive becomes weights, shapes and correctives are added, and eyes, head and
-/// neck move as in the simulated face.
+/// Plays scripts with blend shapes instead of the simulation. The drive becomes weights; shapes and correctives are added; eyes,
+/// head and neck move as in the simulated face.
 ///
-/// A face is built for the conversion to weights (shape_weights.h) and for eyes and neck; it is not stepped.
+/// A face is built for the conversion to weights (shape_weights.h) and for eyes and neck, but it is not simulated.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
-#include "risorius/blendshapes/detail/blend_shape_player.h"
 #include "risorius/blendshapes/detail/blend_shape_rig.h"
+#include "risorius/blendshapes/detail/packed_shapes.h"
 #include "risorius/blendshapes/detail/shape_goals.h"
 #include "risorius/blendshapes/detail/shape_weights.h"
 #include "risorius/face/face.h"
@@ -18,14 +18,15 @@
 
 namespace risorius::blendshapes {
 
-/// Data of a glTF file that `risorius shapes` wrote.
+/// The content of a glTF file that `risorius shapes` has written.
 struct ShapesOfFile {
     std::string set;
-    std::vector<ShapeGoal> goals;    ///< drive of each shape, from the rig's tables
+    std::vector<ShapeGoal> goals;    ///< the drive of each shape comes from the tables of the rig
     blendshapes::BlendShapeRig rig;  ///< on the vertices of the mesh
 };
 
-/// Throws Error when the file was not written by `risorius shapes`, is of another mesh, or has shapes that the rig's tables do not know.
+/// Reads such a file. Throws Error when `risorius shapes` has not written it, when it belongs to another mesh, or when it has
+/// shapes that the tables of the rig do not know.
 ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const scene::RigFiles& files,
                                  const rig::Head& head);
 
@@ -34,13 +35,13 @@ class ShapePlayer {
     /// Keeps a reference to the face and leaves it at rest.
     ShapePlayer(ShapesOfFile shapes, face::Face& face, const track::ChannelTable& channels);
 
-    /// For a drive whose excitation is taken as activation; takes microseconds.
+    /// The pose for a drive; its excitation is used as activation. Takes microseconds.
     face::FacePose pose(const track::Drive& drive) const;
     const ShapesOfFile& shapes() const { return shapes_; }
 
   private:
     ShapesOfFile shapes_;
-    blendshapes::BlendShapePlayer played_;
+    PackedShapes packed_;
     const face::Face& face_;
     ShapeWeights weights_;
 };

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "risorius/core/detail/installed_data.h"
 #include "risorius/core/error.h"
-#include "risorius/core/installed_data.h"
 
 namespace risorius {
 namespace {

@@ -14,7 +14,7 @@ namespace risorius {
 ///   3. `share/risorius` beside the folder of the library or program that contains this code (an installation),
 ///   4. the folders above that library or program (a source tree with its build folder),
 ///   5. `risorius` in the folders of XDG_DATA_DIRS,
-///   6. the installation that find_package(risorius) found, for a program that links it (installed_data.h).
+///   6. the installation that find_package(risorius) found, for a program that links it (detail/installed_data.h).
 /// Throws Error that names the places when none of them holds the files.
 std::filesystem::path data_folder();
 

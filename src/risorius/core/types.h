@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "risorius/core/installed_data.h"
+#include "risorius/core/detail/installed_data.h"
 
 #ifndef RISORIUS_EIGEN_ALIGN_BYTES
 #error \

@@ -40,7 +40,7 @@ void append_word(std::string word, std::string& name) {
     name += word;
 }
 
-/// The name of a clip. Values are converted by clip_word() one by one, so that signs and points become letters.
+/// The name of a clip. Each value is converted by clip_word(), so that signs and points become letters.
 std::string clip_name(const ConditionSet& set, const Parameters& values) {
     std::string out;
     const std::string place = set.place + "/clip";
@@ -65,7 +65,7 @@ std::string clip_name(const ConditionSet& set, const Parameters& values) {
     return out;
 }
 
-/// Some conditions may have no recording: the value is null or empty text.
+/// Sets the recording. A condition has none if the value is null or empty text.
 void add_sound(const ConditionSet& set, const Parameters& values, Condition& condition) {
     if (!set.audio) return;
     const Json file = values.filled(*set.audio);
@@ -167,7 +167,7 @@ std::vector<Condition> conditions_of(const Design& design) {
                 beside.control = control;
                 append_word(control.name(), beside.clip);
                 beside.script = controlled(script, control);
-                // The seed follows from the name, so that other conditions do not change it
+                // The seed depends only on the name, so that other conditions do not change it.
                 std::seed_seq seed(beside.clip.begin(), beside.clip.end());
                 std::array<unsigned, 1> drawn_seed{};
                 seed.generate(drawn_seed.begin(), drawn_seed.end());

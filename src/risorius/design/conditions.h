@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The clips that a design asks for, each with its name, its values and its script.
+/// The clips of a design, each with its name, its values and its script.
 #pragma once
 
 #include <filesystem>
@@ -15,24 +15,27 @@
 
 namespace risorius::design {
 
-/// The maximum number of clips. A crossing is counted before it is made.
+/// The maximum number of clips. It is checked before a crossing is expanded.
 inline constexpr long kMaxConditions = 100000;
 
+/// One clip of a design.
 struct Condition {
-    std::string
-        clip;  ///< the name: letters and digits, as in stim-LABEL of BIDS; unique without regard to case
+    /// Name of letters and digits, as in stim-LABEL of BIDS; unique without regard to case
+    std::string clip;
     std::string set;
     Control control;
-    std::string of;  ///< the clip that this one is a control of; its own name when it is no control
+    /// Name of the clip that this one is a control of; its own name if it is not a control
+    std::string of;
     std::vector<std::pair<std::string, Json>> values;  ///< all parameters, by name
-    Json script;                   ///< with all values filled in, and changed for the control
-    std::filesystem::path folder;  ///< where its relative paths start
-    unsigned seed = 0;             ///< of the random numbers of the control
-    std::optional<std::filesystem::path> audio;  ///< the recording that is heard
+    Json script;  ///< with all values filled in, and changed as the control requires
+    std::filesystem::path folder;                ///< folder to which its relative paths refer
+    unsigned seed = 0;                           ///< seed of the random numbers of the control
+    std::optional<std::filesystem::path> audio;  ///< recording of the sound
     double audio_start_s = 0;                    ///< the time of its first sample
 };
 
-/// Throws Error for names that are not valid or not unique, for unknown parameters and for too many conditions.
+/// All clips of a design. Throws Error for names that are invalid or not unique, for unknown parameters and for too many
+/// conditions.
 std::vector<Condition> conditions_of(const Design& design);
 
 /// Text as a part of a clip's name: "0.25" -> "0p25", "zygomaticus_major.l" -> "ZygomaticusMajorL", -3 -> "m3".

@@ -28,7 +28,7 @@ std::vector<Given> read_values(const JsonCursor& json) {
     return out;
 }
 
-/// The values of a list, each with its place in the file.
+/// The values of a list, each with its position in the file.
 std::vector<JsonCursor> made_levels(const std::vector<double>& values, const JsonCursor& from) {
     std::vector<JsonCursor> out;
     for (const double value : values)
@@ -36,7 +36,7 @@ std::vector<JsonCursor> made_levels(const std::vector<double>& values, const Jso
     return out;
 }
 
-// The number depends only on its arguments, not on other random numbers of the design
+// A random number that depends only on its arguments, not on other random numbers of the design.
 double chance(int seed, const std::string& name, int index) {
     CounterRng place(static_cast<std::uint64_t>(seed));
     for (const char c : name) place.at(static_cast<unsigned char>(c));
@@ -176,7 +176,7 @@ ExperimentOptions read_experiment(const JsonCursor& json) {
     if (const auto v = json.find("question")) out.question = v->string();
     const JsonCursor answers = json.at("answers");
     for (const std::string& key : answers.keys()) {
-        // Names that both programs use, of keys that every keyboard has
+        // Names that both programs use, for keys that every keyboard has.
         if (key.size() != 1 || !(std::islower(static_cast<unsigned char>(key[0])) ||
                                  std::isdigit(static_cast<unsigned char>(key[0]))))
             answers.at(key).fail("a key from a to z or 0 to 9", risorius::in_quotes(key));
@@ -193,7 +193,7 @@ ExperimentOptions read_experiment(const JsonCursor& json) {
     return out;
 }
 
-/// Checks that the design has what the experiment names.
+/// Checks that the design has everything that the experiment names.
 void check_experiment(const JsonCursor& json, const Design& design) {
     std::vector<std::string> names;
     for (const ConditionSet& set : design.sets) names.push_back(set.name);

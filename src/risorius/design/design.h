@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A design as read from its file: scripts and the values that vary in them, controls, and how clips are written.
-/// JSON format "risorius-design", version 1; field names are its keys.
+/// A design as read from its file: scripts, the values that vary in them, controls, and how clips are written. The JSON format is
+/// "risorius-design", version 1; fields have the names of its keys.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct Factor {
     std::vector<JsonCursor> levels;
 };
 
-/// Values of parameters for the conditions that have all values of `when`.
+/// Values of parameters that apply to conditions with all values of `when`.
 struct Override {
     std::vector<Given> when, set;
 };
@@ -30,15 +30,17 @@ struct Override {
 /// The conditions of one script: all combinations of the levels of its factors, for each row of its table.
 struct ConditionSet {
     std::string name;
-    JsonCursor script;              ///< the template
-    std::vector<Given> parameters;  ///< of this set; they replace those of the design
+    JsonCursor script;  ///< the template
+    /// Parameters of this set; they take precedence over those of the design
+    std::vector<Given> parameters;
     std::vector<Factor> factors;
-    std::vector<std::vector<Given>>
-        rows;  ///< the table "conditions"; without one, a single empty row
-    std::vector<Relation> fraction = {};  ///< only combinations that satisfy all of these relations
-    std::optional<int> draw;              ///< a random choice of this many of them
+    /// Rows of the table "conditions"; without a table, one empty row
+    std::vector<std::vector<Given>> rows;
+    /// Only combinations that satisfy all of these relations are used
+    std::vector<Relation> fraction = {};
+    std::optional<int> draw;  ///< number of combinations that are chosen at random
     std::vector<Override> overrides;
-    std::string clip;  ///< pattern of the names of clips
+    std::string clip;  ///< pattern for the names of clips
     std::vector<Control> controls;
     std::optional<JsonCursor> audio;          ///< a WAV or FLAC file; may contain ${names}
     std::optional<JsonCursor> audio_start_s;  ///< time of its first sample, or a formula
@@ -51,39 +53,41 @@ struct ClipOptions {
     std::string quality = "video";
     std::optional<int> crf;
     bool lossless = false;
-    bool landmarks = true;  ///< their places in the table of frames
+    bool landmarks = true;  ///< whether the table of frames has the positions of landmarks
     std::optional<std::string> photodiode;
 };
 
-/// Matches mean and standard deviation of luminance (media/luminance.h) by an affine map of linear light, one for all clips or one for
-/// each clip. Only conditions are measured; their controls are shown through the same map.
+/// Matches mean and standard deviation of luminance (media/luminance.h) by an affine function of linear light, one for all clips
+/// or one per clip. Only conditions are measured; controls are mapped by the same function.
 struct LuminanceMatch {
-    bool within_face =
-        false;  ///< measured within the oval of the face, or else in the whole picture
+    /// Measure within the oval of the face instead of the whole picture
+    bool within_face = false;
     bool per_clip = false;
-    std::optional<double> mean, sd;  ///< the target, (0, 1); not given: that of the set
+    std::optional<double> mean, sd;  ///< targets, (0, 1); not given: those of the set
 };
 
+/// What is made equal in all clips.
 struct Match {
     std::optional<LuminanceMatch> luminance;
-    std::optional<double> loudness_lufs;  ///< the target loudness of the sound of each clip
+    std::optional<double> loudness_lufs;  ///< target loudness of the sound of each clip
 };
 
-/// The example experiment: what a participant sees, and is asked.
+/// The example experiment: what is shown to a participant, and the question.
 struct ExperimentOptions {
     std::vector<std::string> programs;  ///< "psychopy", "jspsych"
     std::string question = "Which one was it?";
-    std::vector<std::pair<std::string, std::string>> answers;  ///< key to press, what it stands for
-    std::optional<std::string>
-        correct;                    ///< the parameter of the design whose value is the right answer
-    std::vector<std::string> sets;  ///< the sets whose clips are shown; empty: all
-    bool controls = true;           ///< whether controls are shown too
+    std::vector<std::pair<std::string, std::string>> answers;  ///< key to press, and its meaning
+    /// Parameter of the design whose value is the right answer
+    std::optional<std::string> correct;
+    std::vector<std::string> sets;  ///< sets whose clips are shown; empty: all
+    bool controls = true;           ///< whether controls are also shown
     int repetitions = 1;
     double fixation_s = 0.5;
-    std::string jspsych_from =
-        "https://cdn.jsdelivr.net/npm";  ///< packages of jsPsych: a URL or a folder
+    /// Packages of jsPsych: a URL or a folder
+    std::string jspsych_from = "https://cdn.jsdelivr.net/npm";
 };
 
+/// The content of a design file.
 struct Design {
     std::filesystem::path file;
     std::string name;
@@ -95,7 +99,7 @@ struct Design {
     std::vector<ConditionSet> sets;
 };
 
-/// Throws Error naming file, place, expected and found.
+/// Reads a design. Throws Error with file, place, and the expected and the found value.
 Design read_design(const std::filesystem::path& file);
 
 }  // namespace risorius::design

@@ -28,7 +28,7 @@ std::string with_unit(const std::string& text, const std::string& unit) {
     return unit.empty() ? text : text + " " + unit;
 }
 
-/// Mark and word, so that it does not hang on the colour.
+/// Writes a symbol and a word, so that the meaning does not depend on colour.
 void write_mark(report::HtmlWriter& html, const Check& check) {
     html.element("span", check.passes() ? "✓ inside" : "✗ outside",
                  {{"class", check.passes() ? "good" : "bad"}});
@@ -37,7 +37,7 @@ void write_mark(report::HtmlWriter& html, const Check& check) {
                               {{"class", check.differs ? "bad" : "good"}});
 }
 
-/// Where a range comes from, in a table.
+/// Where a range comes from, for a table.
 std::string source_text(const Check& check) {
     if (check.range_from == "published") return "what was published";
     if (check.range_from == "law") return "a law";
@@ -46,7 +46,7 @@ std::string source_text(const Check& check) {
     return "–";
 }
 
-/// Of the checks of all figures.
+/// Numbers of checks of all figures.
 struct Counts {
     int all = 0, inside = 0, published = 0, differing = 0;
     int from_publication = 0, from_law = 0, demanded = 0, own = 0;
@@ -65,10 +65,10 @@ void count(const FigureResult& figure, Counts& counts) {
     }
 }
 
-/// So many that both ends of the range, and what is measured, keep what sets them apart.
+/// Significant digits that distinguish the ends of the range and the measured value.
 int digits_of(const Check& check) {
     constexpr int kFewest = 4, kMax = 10;
-    constexpr double kRounding = 0.05;  ///< of the width
+    constexpr double kRounding = 0.05;  ///< fraction of the width of the range
     const double width = check.high - check.low;
     if (!(width > 0) || std::isinf(width)) return kFewest;
     for (int digits = kFewest; digits < kMax; ++digits) {
@@ -82,7 +82,7 @@ int digits_of(const Check& check) {
     return kMax;
 }
 
-/// Numbered figures are called so, others go by their name.
+/// The heading of a figure: "Figure 9b" for numbered ones, otherwise its name.
 std::string heading(const FigureResult& figure) {
     const bool numbered =
         !figure.id.empty() && figure.id.front() >= '0' && figure.id.front() <= '9';
@@ -238,7 +238,7 @@ void write_tables(report::HtmlWriter& html, const ShownFigure& figure) {
     html.element("a", "experiment.json", {{"href", figure.folder + "experiment.json"}}).close();
 }
 
-/// Numbers and words of the record in lines; what is deeper is folded away.
+/// Writes numbers and texts of the record as lines; nested values are collapsible.
 void write_record(report::HtmlWriter& html, const FigureResult& figure) {
     if (figure.record.empty()) return;
     html.open("details");
@@ -247,7 +247,7 @@ void write_record(report::HtmlWriter& html, const FigureResult& figure) {
     html.close();
 }
 
-/// The section has its own.
+/// Removes the title, because the section has its own heading.
 std::string without_title(const std::string& markdown) {
     if (!markdown.starts_with("# ")) return markdown;
     const std::size_t end = markdown.find('\n');
@@ -307,7 +307,7 @@ std::string short_number(double value, int digits) {
     if (std::isinf(value)) return value > 0 ? "∞" : "-∞";
     char text[32];
     const double size = std::abs(value);
-    // Whole numbers stay whole up to a million
+    // Integers are written in full up to a million.
     if (size < 1e6 && value == std::round(value))
         std::snprintf(text, sizeof text, "%.0f", value);
     else

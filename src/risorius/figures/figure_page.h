@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// One HTML page with figures side by side: what was published, what was measured, pictures and charts, and why they differ.
+/// An HTML page of figures: published and measured values side by side, pictures and charts, and the reasons for differences.
 #pragma once
 
 #include <filesystem>
@@ -17,20 +17,21 @@ namespace risorius::figures {
 struct ShownFigure {
     figures::FigureResult result;
     FigureFiles files;
-    std::string folder;     ///< of its files from the page, "" or "9b/"
+    std::string folder;     ///< path from the page to the folder of its files, "" or "9b/"
     std::string readme;     ///< Markdown; empty when there is none
-    double run_time_s = 0;  ///< about, as the list of figures says; 0 when it says nothing
+    double run_time_s = 0;  ///< approximate, from the list of figures; 0 when unknown
     figures::Origin origin = figures::Origin::kOwn;
-    std::string
-        published;  ///< file name of a picture of the published figure; empty when there is none
+    /// File name of a picture of the published figure; empty when there is none
+    std::string published;
 };
 
+/// The complete HTML page.
 std::string figure_page(const std::vector<ShownFigure>& figures);
 
-/// "8 to 13 %", "at most 5 %", "at least 2": the accepted range of a check in words.
+/// The accepted range of a check in words: "8 to 13 %", "at most 5 %", "at least 2".
 std::string range_text(const figures::Check& check);
 
-/// Four significant digits or as many as asked for, as people read them: "10.82", "0.0002", "1.2e-09".
+/// A number for people, with four significant digits or as many as requested: "10.82", "0.0002", "1.2e-09".
 std::string short_number(double value, int digits = 4);
 
 }  // namespace risorius::figures

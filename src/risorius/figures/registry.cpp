@@ -125,7 +125,7 @@ FigureResult run_figure(const JsonCursor& experiment, const RunOptions& options)
 
 void check_experiment(const JsonCursor& experiment) {
     try {
-        // Asked to stop at its first step, which comes after all that.
+        // The monitor stops the run at its first step, after everything has been read and built.
         run_figure(experiment,
                    {.threads = 1, .monitor = {.progress = {}, .stopped = [] { return true; }}});
     } catch (const Interrupted&) {

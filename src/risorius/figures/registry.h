@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The thesis' figures and the kinds of experiment that make them. An experiment file says what is run, what is measured
-/// and what was published; so a person's own parameters run just as well:
+/// The figures of the thesis, and the kinds of experiment that make them. An experiment file says what is run, what is measured
+/// and what was published. Users can run their own files in the same way:
 ///
 ///   {"format": "risorius-experiment", "version": 1, "figure": "9b", "kind": "volume-history", "title": "...", ...}
 ///
-/// "figure" names the results, "kind" chooses the experiment; each kind lists its further keys in its own header.
+/// "figure" is the id of the results and "kind" selects the experiment. The header of each kind documents its further keys.
 #pragma once
 
 #include <string_view>
@@ -17,29 +17,31 @@
 
 namespace risorius::figures {
 
-enum class Origin { kThesis, kBeyond, kOwn };  ///< kOwn: none that comes with the program
+/// Where a figure comes from: the thesis, or beyond it; kOwn: it does not come with the program
+enum class Origin { kThesis, kBeyond, kOwn };
 
-/// A figure that comes with the program: samples/figures/ID/experiment.json.
+/// A figure that comes with the program, in samples/figures/ID/experiment.json.
 struct Figure {
     std::string_view id;     ///< "9b"
-    std::string_view title;  ///< one line, what it shows
-    std::string_view kind;   ///< of experiment
-    double run_time_s;       ///< about, on two cores
+    std::string_view title;  ///< one line that says what it shows
+    std::string_view kind;   ///< kind of experiment
+    double run_time_s;       ///< approximate, on two cores
     Origin origin = Origin::kThesis;
 };
 
-/// In the order of the thesis, then those that go beyond it.
+/// All figures, in the order of the thesis, followed by those beyond it.
 const std::vector<Figure>& figures();
 
 Origin origin_of(std::string_view id);
 
-/// The names "kind" may have.
+/// The valid values of "kind".
 std::vector<std::string_view> kinds();
 
-/// `experiment` is the top of an experiment file. Throws Error for a wrong file, Interrupted when asked to stop.
+/// Runs an experiment. `experiment`: root of an experiment file. Throws Error for a wrong file, Interrupted when the monitor asks
+/// to stop.
 FigureResult run_figure(const JsonCursor& experiment, const RunOptions& options = {});
 
-/// Reads the whole file and builds its bodies, but runs nothing of it. Throws Error for a wrong one.
+/// Reads the whole file and builds its bodies without running anything. Throws Error for a wrong file.
 void check_experiment(const JsonCursor& experiment);
 
 }  // namespace risorius::figures

@@ -29,8 +29,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kExperimentFile = "experiment.json";
-constexpr double kUnknownTime_s =
-    20;  ///< what a figure counts in the progress when nothing is known
+/// Assumed run time of a figure for the progress when it is unknown, s
+constexpr double kUnknownTime_s = 20;
 
 fs::path folder_of_figures(const fs::path& from) {
     return from.empty() ? data_folder() / "samples" / "figures" : from;
@@ -41,14 +41,14 @@ std::string text_of(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// An experiment to be run, and where its files go.
+/// An experiment to run, and the folder of its files.
 struct Job {
     fs::path file;
-    std::string folder;  ///< below the results, "" or "9b/"
+    std::string folder;  ///< below the folder of results, "" or "9b/"
     double run_time_s = 0;
 };
 
-/// Whether each figure has a folder of its own, and there is a page of all.
+/// Whether each figure has its own folder, with a page of all above them.
 bool is_several(const FigureOptions& options) {
     return options.figure == "all" ||
            (!options.figure.ends_with(".json") && options.figure.find(',') != std::string::npos);
@@ -68,7 +68,7 @@ bool is_several(const FigureOptions& options) {
 
 std::vector<Job> jobs_of(const FigureOptions& options) {
     const fs::path from = folder_of_figures(options.from);
-    // A path is told from an id by its ending, so that a mistyped id is not taken for a missing file.
+    // A path is recognised by its extension, so that a mistyped id is not reported as a missing file.
     if (options.figure.ends_with(".json"))
         return {{.file = options.figure, .folder = "", .run_time_s = 0}};
     const std::vector<FigureEntry> entries = list_figures(options.from);
@@ -95,7 +95,7 @@ std::vector<Job> jobs_of(const FigureOptions& options) {
     return jobs;
 }
 
-/// A picture of the figure as published, which a reader may have put beside the experiment.
+/// File name of a picture of the published figure, which the user may have put beside the experiment.
 std::string published_picture(const fs::path& folder) {
     for (const char* name : {"published.png", "published.jpg", "published.svg"})
         if (fs::exists(folder / name)) return name;
@@ -106,7 +106,7 @@ void write_json(const fs::path& file, const Json& json) {
     report::write_text(file, json.dump(2) + "\n");
 }
 
-/// Writes everything of one figure but the page and the times.
+/// Writes all files of one figure except the page and the times.
 ShownFigure write_results(const Job& job, figures::FigureResult result, const fs::path& top,
                           const plot::ChartWriter& charts) {
     const fs::path folder = job.folder.empty() ? top : top / job.folder;
@@ -125,7 +125,7 @@ ShownFigure write_results(const Job& job, figures::FigureResult result, const fs
     return shown;
 }
 
-/// Every file of a folder as results.json lists them, those still to be written included.
+/// Files of a folder as listed in results.json, including those in `to_come` that are not yet written.
 Json listing(const fs::path& folder, const std::set<std::string>& to_come) {
     std::set<std::string> files = to_come;
     for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -152,7 +152,7 @@ Json results_of_all(const std::vector<ShownFigure>& figures) {
     return json;
 }
 
-/// Several at a time, the longest first; when there are fewer left than threads, those go to the work within them.
+/// Runs several figures at a time, longest first. When fewer figures than threads are left, free threads help within a figure.
 class Run {
   public:
     Run(const FigureOptions& options, const ProgressMonitor& monitor, const std::vector<Job>& jobs)
@@ -168,7 +168,7 @@ class Run {
         double run_s = 0, write_s = 0;
     };
 
-    /// In the order of the jobs, written below `top`.
+    /// Results in the order of the jobs; files are written below `top`.
     std::vector<Done> all(const fs::path& top) {
         std::vector<std::size_t> order(jobs_.size());
         std::iota(order.begin(), order.end(), 0);
@@ -181,7 +181,7 @@ class Run {
             try {
                 done[job] = one(job, top);
             } catch (const Interrupted&) {
-                // Either by who watches, or because another has failed, whose error is the one to tell.
+                // Stopped either by the monitor or because another figure has failed, whose error is reported.
                 if (!failed_) throw Interrupted();
             } catch (...) {
                 failed_ = true;
@@ -213,7 +213,7 @@ class Run {
         figures::FigureResult result =
             options_.run ? options_.run(file, run_options) : figures::run_figure(file, run_options);
         done.run_s = running.seconds();
-        // Pictures and charts one figure at a time: the renderer uses all threads by itself.
+        // Pictures and charts are made one figure at a time, because the renderer uses all threads.
         const std::lock_guard<std::mutex> lock(writing_);
         const report::Stopwatch writing;
         done.shown = write_results(jobs_[job], std::move(result), top, options_.charts);
@@ -236,7 +236,7 @@ class Run {
     const FigureOptions& options_;
     const ProgressMonitor& monitor_;
     const std::vector<Job>& jobs_;
-    std::vector<double> fractions_;  ///< of each job, done
+    std::vector<double> fractions_;  ///< finished fraction of each job
     SpareThreads spare_;
     figures::SharedRuns shared_;
     std::atomic<bool> failed_{false};
@@ -271,7 +271,7 @@ std::vector<FigureEntry> list_figures(const fs::path& from) {
 }
 
 FigureReport run_figures(const FigureOptions& options, const ProgressMonitor& monitor) {
-    // What is asked for, refused before anything is run
+    // Reads the request and rejects it before anything is run.
     const std::vector<Job> jobs = jobs_of(options);
     for (const Job& job : jobs) {
         const JsonCursor file = JsonCursor::read_file(job.file);
@@ -279,7 +279,7 @@ FigureReport run_figures(const FigureOptions& options, const ProgressMonitor& mo
     }
     report::AtomicFolder staged(options.out);
 
-    // Each figure
+    // Runs each figure.
     const report::Stopwatch total;
     Json timing = {{"format", "risorius-timing"}, {"version", 1}, {"figures", Json::array()}};
     std::vector<ShownFigure> figures;
@@ -289,7 +289,7 @@ FigureReport run_figures(const FigureOptions& options, const ProgressMonitor& mo
         figures.push_back(std::move(done.shown));
     }
 
-    // What holds them together
+    // Writes the common files.
     FigureReport report;
     const bool together = is_several(options);
     for (const ShownFigure& figure : figures) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Runs experiments of samples/figures, or of a file of one's own, and writes what they leave as folders of results:
+/// Runs experiments of samples/figures, or of the user's own file, and writes folders of results:
 ///
 ///   DIR/results.json     id, checks, parameters, what was run, the list of all files
-///   DIR/experiment.json  what it was run from
-///   DIR/index.html       published and measured side by side
+///   DIR/experiment.json  the input
+///   DIR/index.html       published and measured values side by side
 ///   DIR/*.csv *.svg *.png *.gp
-///   DIR/timing.json      how long it took: the only file that differs between two runs
+///   DIR/timing.json      run time: the only file that differs between two runs
 ///
-/// Of several figures each has such a folder below DIR, and DIR the page of all.
+/// With several figures, each has such a folder below DIR, and DIR itself has a page of all.
 #pragma once
 
 #include <filesystem>
@@ -28,39 +28,41 @@ namespace risorius::figures {
 using FigureRunner = std::function<figures::FigureResult(const JsonCursor& experiment,
                                                          const figures::RunOptions& options)>;
 
+/// Options of run_figures().
 struct FigureOptions {
     std::string figure;  ///< an id, several ("8a,8b"), "all", or the path of an experiment.json
-    std::filesystem::path out;  ///< a folder, new, empty or with former results, which are replaced
-    std::filesystem::path
-        from;         ///< where the ids are folders; empty: samples/figures of this toolkit
-    int threads = 0;  ///< 0 = as many as the machine has; results do not depend on it
+    /// A folder that is new, empty or has former results, which are replaced
+    std::filesystem::path out;
+    /// Folder with one folder per id; empty: samples/figures of this toolkit
+    std::filesystem::path from;
+    int threads = 0;  ///< 0: as many as the machine has; results do not depend on it
     plot::ChartWriter charts{};
-    FigureRunner run{};  ///< empty: figures::run_figure
+    FigureRunner run{};  ///< empty: figures::run_figure()
 };
 
-/// A number outside of its accepted range.
+/// A measured value outside its accepted range.
 struct FailedCheck {
     std::string figure;
     figures::Check check;
 };
 
 struct FigureReport {
-    Json results;  ///< the results.json of `out`
+    Json results;  ///< the content of results.json in `out`
     std::vector<FailedCheck> failed;
 };
 
-/// All of `out` is written or nothing. Numbers outside of their ranges are a result, not an error. Throws Error for an
-/// unknown figure, a wrong experiment or an `out` that cannot be used, RunError when writing or drawing fails,
-/// Interrupted when asked to stop.
+/// Runs figures and writes `out` completely or not at all. Values outside their ranges are a result, not an error. Throws Error
+/// for an unknown figure, a wrong experiment or an `out` that cannot be used, RunError when writing or drawing fails, Interrupted
+/// when the monitor asks to stop.
 FigureReport run_figures(const FigureOptions& options, const ProgressMonitor& monitor = {});
 
 struct FigureEntry {
     std::string id, title;
-    double run_time_s = 0;  ///< about; 0 when it is not known
+    double run_time_s = 0;  ///< approximate; 0 when unknown
 };
 
-/// Every folder of `from` with an experiment.json, those of the thesis first and in its order. Throws Error when there
-/// is none.
+/// Lists every folder of `from` with an experiment.json, those of the thesis first and in its order. Throws Error when there is
+/// none.
 std::vector<FigureEntry> list_figures(const std::filesystem::path& from = {});
 
 }  // namespace risorius::figures

@@ -29,8 +29,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kSmallestHead = 0.6, kLargestHead = 1.6;  // of an average adult
-constexpr double kLargestResidual_mm = 25;                 // people differ from the atlas by 4 to 8
+constexpr double kSmallestHead = 0.6, kLargestHead = 1.6;  // relative to an average adult
+constexpr double kLargestResidual_mm = 25;                 // the RMS of real people is 4 to 8 mm
 
 rig::RigDescription standard_rig(const fs::path& folder) {
     const auto table = [&](const char* name) { return JsonCursor::read_file(folder / name); };
@@ -67,7 +67,7 @@ void check_frame(const rig::HeadFrame& frame, const FitOptions& options) {
                     format_number(std::round(residual_mm)) + " mm (are they those of this mesh?)");
 }
 
-// Pieces of a mesh without groups become groups, unless the user names parts himself; what they were taken for.
+// Turns the pieces of a mesh without groups into groups, unless the user names parts. Returns messages about the guesses.
 std::vector<std::string> group_pieces_of(geom::PolygonMesh& mesh, const rig::HeadFrame& frame,
                                          const LandmarkPositions& landmarks,
                                          const FitOptions& options) {
@@ -78,7 +78,7 @@ std::vector<std::string> group_pieces_of(geom::PolygonMesh& mesh, const rig::Hea
         mesh, [&](const Vec3& p) { return frame.to_head(p); }, in_head, frame.size);
 }
 
-// Lips that are grown together are refused, or cut when that was asked for; then `mesh` and `rig` are of the cut head.
+// Rejects closed lips of a scan, or cuts them if requested; then `mesh` and `rig` become those of the cut head.
 bool open_lips(const FitOptions& options, const rig::Head& head, rig::RigDescription& rig,
                geom::PolygonMesh& mesh, std::vector<std::string>& notes) {
     const bool closed = rig::lips_are_closed(head);
@@ -94,7 +94,7 @@ bool open_lips(const FitOptions& options, const rig::Head& head, rig::RigDescrip
     for (const std::string& group : rig.parts.at("skin")) skin.push_back(mesh.group_index(group));
     rig::CutLips cut = rig::cut_lips(mesh, head, skin, options.mesh.string());
 
-    // Landmarks go with their own lip
+    // Landmarks of the lower lip move to its new vertices.
     for (auto& [id, landmark] : rig.landmarks)
         if (landmark.vertex >= 0)
             landmark.vertex = head.welded[static_cast<std::size_t>(landmark.vertex)];
@@ -118,13 +118,13 @@ bool open_lips(const FitOptions& options, const rig::Head& head, rig::RigDescrip
     return true;
 }
 
-// Where the mesh goes that was cut, or whose pieces were named.
+// File of a mesh that was cut, or whose pieces were named.
 fs::path changed_mesh_file(const fs::path& rig) {
     fs::path file = rig;
     return file.replace_filename(rig.stem().string() + "_head.obj");
 }
 
-// Each muscle by itself, then all together.
+// Calibrates each muscle separately, then all together.
 void scale_muscles(face::Face& face, const FitOptions& options, const fs::path& standard,
                    const ProgressMonitor& monitor, rig::RigDescription& rig, FitReport& report) {
     const auto part_of = [&](double begin, double end) {
@@ -173,7 +173,7 @@ void check_parts(const FitOptions& options, const geom::PolygonMesh& mesh) {
     }
 }
 
-// The rig and, where it was changed, the mesh.
+// Writes the rig and, if it was changed, the mesh.
 void write_files(const FitOptions& options, const fs::path& standard, bool mesh_changed,
                  const geom::PolygonMesh& mesh, rig::RigDescription& rig) {
     if (options.out.has_parent_path()) {
@@ -221,7 +221,7 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
         throw Error(option_name("metres_per_unit"), "a number in (0, inf)",
                     format_number(*options.metres_per_unit));
 
-    // Read the mesh, the landmarks and the standard anatomy
+    // Read the mesh, the landmarks and the standard anatomy.
     const fs::path standard =
         options.standard.empty() ? data_folder() / "rigs" / "standard" : options.standard;
     rig::RigDescription rig = standard_rig(standard);
@@ -235,7 +235,7 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
     const LandmarkPositions landmarks = landmark_positions(rig, mesh, options.landmarks);
     check_sides(landmarks, rig.atlas, options.landmarks);
 
-    // How large it is, and what its groups are
+    // Find the unit, the size and the roles of groups.
     FitReport report;
     report.out = options.out;
     report.guessed_unit = !options.metres_per_unit;
@@ -258,7 +258,7 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
     for (const geom::MeshFinding& finding : scene::check_skin(rig, mesh).findings)
         if (finding.severity == geom::Severity::kWarning) report.notes.push_back(finding.message());
 
-    // Prove that a face can be built of it
+    // Check that a face can be built from it.
     monitor.report(0, "building the face");
     {
         const rig::Head placed = rig::place_head(rig, mesh, options.out.string());
@@ -278,10 +278,10 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
     face::Face face(rig, mesh, face::quality_named("video"), options.out.string());
     const rig::Head& head = face.head();
 
-    // Make every muscle as strong as it has to be on this head
+    // Give every muscle the strength that it needs on this head.
     if (options.calibrate) scale_muscles(face, options, standard, monitor, rig, report);
 
-    // Write it and say what came out
+    // Write the rig and the report.
     write_files(options, standard, report.lips_cut || regrouped, mesh, rig);
     report_head(rig, face, landmarks, report);
     const BoneEstimate bone = bone_estimate(head, rig, face.diagnostics().shell());

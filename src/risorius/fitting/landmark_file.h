@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Reads a landmark file whose names are those of the atlas.
+/// Reads a landmark file whose ids are those of the atlas.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace risorius::fitting {
 
-/// Throws Error on a name the atlas does not know.
+/// Throws Error for an id that the atlas does not know.
 std::map<std::string, rig::Landmark> read_atlas_named_landmarks(
     const std::filesystem::path& file, const std::vector<rig::AtlasLandmark>& atlas);
 

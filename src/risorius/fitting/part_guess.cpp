@@ -8,7 +8,7 @@ namespace risorius::fitting {
 
 namespace {
 
-// "EyeBall_L" -> "eye", "ball", "l"
+// Splits a name into words: "EyeBall_L" -> "eye", "ball", "l"
 std::vector<std::string> words_of(const std::string& name) {
     std::vector<std::string> words(1);
     bool was_lower = false;
@@ -55,7 +55,7 @@ struct Name {
 
 std::string role_suggested_by(const std::string& group) {
     const Name name(group);
-    // Thin sheets around the eye and everything that hair is made of: not drawn, not moved
+    // Thin sheets around the eye, and everything made of hair: neither drawn nor moved.
     if (name.has({"lacrimal", "occlusion", "eyeblend", "caruncle", "meniscus", "tearline", "brow",
                   "hair", "beard", "shadow", "cloth", "shirt", "glasses"}))
         return "hidden";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Guesses the roles of an unknown mesh's groups from their names: "Eyeball_L" is the left eye.
+/// Guesses the roles of the groups of a mesh from their names: "Eyeball_L" is the left eye.
 #pragma once
 
 #include <functional>
@@ -13,16 +13,17 @@
 
 namespace risorius::fitting {
 
+/// Result of guess_parts().
 struct PartGuess {
     std::map<std::string, std::vector<std::string>> parts;  ///< role -> groups
-    std::vector<std::string> notes;  ///< groups that got no role, and the reason
+    std::vector<std::string> notes;  ///< groups without a role, and the reason
 };
 
-/// The role that a name suggests, or "" when it suggests none. For eyes and corneas without a side in the name: "eye", "cornea".
+/// The role that the name of a group suggests, or "". Eyes and corneas without a side in the name give "eye" and "cornea".
 std::string role_suggested_by(const std::string& group);
 
-/// `given` roles take precedence. A mesh with one group is skin. `left_of`, positive for points nearer to the subject's left, decides the
-/// side of eyes whose names have none.
+/// Guesses all roles. Roles of `given` take precedence. The only group of a mesh is skin. `left_of` is positive for points to the
+/// subject's left; it decides the side of eyes whose names have none.
 PartGuess guess_parts(const geom::PolygonMesh& mesh,
                       const std::map<std::string, std::vector<std::string>>& given,
                       const std::function<double(const Vec3& mesh_units)>& left_of);

@@ -13,7 +13,7 @@ namespace risorius::inverse {
 
 namespace {
 
-// One head and how its landmarks move.
+// One head and the displacements of its landmarks.
 struct Mover {
     Mover(const std::filesystem::path& file, const std::string& quality)
         : files(scene::read_rig_files(file)),

@@ -24,7 +24,7 @@ namespace risorius::inverse {
 
 namespace {
 
-// Given landmarks of brows, eyes, nose and lips that lie on the simulated skin.
+// The given landmarks of brows, eyes, nose and lips that lie on the simulated skin.
 std::vector<int> inner_landmarks(const rig::RigDescription& rig,
                                  const scene::LandmarkPoints& points, const Eigen::VectorXd& area) {
     static const std::set<std::string> kInner{"brow", "eye", "nose", "lip"};
@@ -50,7 +50,7 @@ Json means_json(const ScoreMeans& means) {
             {"rms_mm", 1e3 * means.rms_m},      {"landmark_mm", 1e3 * means.landmark_m}};
 }
 
-// Of the time a run takes, about: the rest draws pictures.
+// Approximate fraction of the run time that is spent on equilibria; the rest draws pictures.
 double converging_fraction(const EvaluateOptions& options) {
     if (options.out.empty() || !options.pictures) return 1;
     return options.fit ? 0.8 : 0.1;
@@ -123,7 +123,8 @@ bool Evaluation::is_calibrated_on(const std::string& expression) const {
     const auto has = [&](const std::string& wanted) {
         return std::find(calibrated_on.begin(), calibrated_on.end(), wanted) != calibrated_on.end();
     };
-    return has(expression) || has(rig::split_shape(expression).base);  // one side of it
+    // Also if the expression is one side of a listed one
+    return has(expression) || has(rig::split_shape(expression).base);
 }
 
 std::vector<ExpressionGroup> Evaluation::groups() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Compares a rig's expressions with measured ones: driven by the rig's own tables, and after a bounded search of activations.
+/// Compares the expressions of a rig with measured ones: with the drives of the rig's tables, and after a bounded search of
+/// activations.
 #pragma once
 
 #include <array>
@@ -17,17 +18,18 @@
 
 namespace risorius::inverse {
 
+/// Options of evaluate().
 struct EvaluateOptions {
     std::filesystem::path rig = {}, shapes = {},
                           out = {};      ///< out: a folder; empty: nothing is written
     std::vector<std::string> only = {};  ///< names of shapes; empty: all
-    std::string quality = "preview";     ///< quality of the mesh; poses are in equilibrium
+    std::string quality = "preview";     ///< face::quality_named(); poses are in equilibrium
     bool separate_sides = false;         ///< left and right shapes are evaluated separately
     bool fit = false;
     bool pictures = true;
 };
 
-/// One simulation of an expression.
+/// A simulation of an expression.
 struct Attempt {
     track::Drive drive;
     scene::ExpressionScore score;
@@ -36,45 +38,49 @@ struct Attempt {
     bool converged = true;
 };
 
+/// A measured expression and its simulations.
 struct EvaluatedExpression {
     std::string name;
     Points measured;  ///< displacement, V x 3, m
-    Attempt table;    ///< with the drive of the rig's own table
+    Attempt table;    ///< with the drive from the rig's tables
     std::optional<Attempt> fitted;
 };
 
-/// Means over a list of expressions, with the worst cosine and relative error.
+/// Means over a list of expressions, and the worst cosine.
 struct ScoreMeans {
     int count = 0;
     double cosine = 0, min_cosine = 1, relative = 0, rms_m = 0, landmark_m = 0;
 };
 
-/// A list of expressions with its means.
+/// A list of expressions and its title.
 struct ExpressionGroup {
     std::string key, title;
     std::vector<std::string> names;
 };
 
+/// The result of evaluate().
 struct Evaluation {
-    std::string name;         ///< of the rig
-    std::string rig, shapes;  ///< files
+    std::string name;         ///< name of the rig
+    std::string rig, shapes;  ///< file names
     std::vector<std::string> calibrated_on;
     track::ChannelTable channels;
     std::vector<EvaluatedExpression> expressions;
     int nodes = 0;
 
     ScoreMeans means(const std::vector<std::string>& names, bool fitted) const;
-    /// Lists: all; the sixteen and the twenty-four when all of them are present; those the rig was calibrated on, and the others.
+    /// The lists: all; the sixteen and the twenty-four if all of them are present; those on which the rig was calibrated; the
+    /// others.
     std::vector<ExpressionGroup> groups() const;
     bool is_calibrated_on(const std::string& expression) const;
     Json json() const;
 };
 
-/// The sixteen and the twenty-four expressions for which published and earlier results are given.
+/// The sixteen and the twenty-four expressions for which there are published and earlier results.
 const std::vector<std::string>& sixteen_expressions();
 const std::vector<std::string>& twenty_four_expressions();
 
-/// Throws Error when rig or shapes cannot be used, Interrupted.
+/// Evaluates a rig, and writes the page and its files if a folder is given. Throws Error when rig or shapes cannot be used, and
+/// Interrupted when the monitor asks to stop.
 Evaluation evaluate(const EvaluateOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::inverse

@@ -13,7 +13,7 @@ namespace risorius::inverse {
 
 namespace {
 
-// V x 3 displacement scaled by the root of the area, as one vector over the vertices that count
+// The V x 3 displacement, scaled by the square root of the area, as one vector over vertices with weight
 class Weighting {
   public:
     explicit Weighting(const Eigen::VectorXd& area) {
@@ -145,10 +145,10 @@ track::Drive fit_activations(face::Face& face, const std::vector<ActivationUnkno
         solve::BoxQuadratic problem;
         problem.A = J.transpose() * J / size;
         problem.A.diagonal().array() += options.l2_weight + options.keep;
-        // About x: the unknown is where it goes, so that the price counts from 0
+        // The model is written in the new value instead of the change from x, so that the L1 penalty counts from 0.
         problem.b = J.transpose() * (miss - J * x) / size;
         if (options.keep > 0) problem.b -= options.keep * options.near;
-        problem.price = Eigen::VectorXd::Constant(count, options.l1_weight);
+        problem.l1_weight = Eigen::VectorXd::Constant(count, options.l1_weight);
         bool better = false;
         while (!better && longest > 0.01) {
             problem.min.resize(count);

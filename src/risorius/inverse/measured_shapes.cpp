@@ -22,7 +22,7 @@ std::string did_you_mean(const std::string& name, const std::vector<std::string>
     return near.empty() ? "" : " (did you mean \"" + near + "\"?)";
 }
 
-/// As the file has it.
+/// The content of the file.
 struct ShapesFile {
     JsonCursor json;
     int vertices = 0;
@@ -38,7 +38,7 @@ struct ShapesFile {
         if (found == names.end()) return std::nullopt;
         return static_cast<std::size_t>(found - names.begin());
     }
-    /// Shapes, or pairs of them under the name they share.
+    /// Whether the file has a shape, or a pair of shapes with this common name.
     bool knows(const std::string& name) const {
         return std::any_of(names.begin(), names.end(), [&](const std::string& one) {
             return one == name || rig::split_shape(one).base == name;
@@ -75,7 +75,7 @@ ShapesFile read_shapes_file(const std::filesystem::path& file, const rig::Head& 
     ShapesFile out{JsonCursor::read_file(file), 0, {}, {}, {}};
     const JsonCursor& json = out.json;
     if (const auto format = json.find("format")) format->one_of({"risorius-shapes"});
-    // "stats", "source" and "note" are for people
+    // "stats", "source" and "note" are informal and ignored.
     json.allow_keys({"format", "version", "shape", "dtype", "layout", "names", "file",
                      "units_per_metre", "excitations", "on_top_of", "stats", "source", "note"});
     if (const auto version = json.find("version")) version->integer(1, 1);
@@ -113,13 +113,13 @@ ShapesFile read_shapes_file(const std::filesystem::path& file, const rig::Head& 
     return out;
 }
 
-// The file's own "excitations" come before the rig's tables.
+// Drives of shapes; the "excitations" of the file take precedence over the rig's tables.
 class Drives {
   public:
     Drives(const rig::RigDescription& rig, const JsonCursor& json)
         : rig_(rig), channels_(rig.channels()), json_(json) {}
 
-    /// By the file itself.
+    /// Whether the file gives the drive.
     bool given(const std::string& name) const {
         const auto table = json_.find("excitations");
         return table && table->has(name);
@@ -155,7 +155,7 @@ class Drives {
             out.add(track::expand(*rig_.facs.find(use.unit), use.side, channels_),
                     at.number({0, 1}));
         } else {
-            const track::MuscleShare fraction = track::muscle_named(at, source, channels_);
+            const track::MuscleFraction fraction = track::muscle_named(at, source, channels_);
             out.add(track::expand(fraction, channels_),
                     at.number({channels_.find(fraction.muscle)->min, 1}));
         }
@@ -192,7 +192,7 @@ std::vector<MeasuredShape> read_measured_shapes(const std::filesystem::path& fil
         if (name == "mouthClose" && shapes.index("jawOpen")) return "jawOpen";
         return std::nullopt;
     };
-    // Which shapes of the file make up each of ours
+    // The shapes of the file that are added to each result
     const Drives drives(rig, json);
     std::vector<MeasuredShape> out;
     std::vector<std::string> all;
@@ -204,7 +204,7 @@ std::vector<MeasuredShape> read_measured_shapes(const std::filesystem::path& fil
         MeasuredShape one;
         one.name = names[s];
         one.sided = sided.side.has_value();
-        // mouthLeft and mouthRight are directions, not halves
+        // mouthLeft and mouthRight are directions, not halves.
         const bool direction = names[s] == "mouthLeft" || names[s] == "mouthRight" ||
                                names[s] == "jawLeft" || names[s] == "jawRight";
         if (sided.side && !options.separate_sides && !direction)

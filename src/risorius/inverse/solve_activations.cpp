@@ -29,12 +29,13 @@ namespace {
 
 using track::Kinematic;
 
-constexpr double kPressure_pa = 3000;           // in the mouth, at most
-constexpr double kRamp_s = 0.3, kHold_s = 0.4;  // of each shape, when they are shown in turn
+constexpr double kPressure_pa = 3000;           // maximum pressure in the mouth
+constexpr double kRamp_s = 0.3, kHold_s = 0.4;  // for each shape, when shapes are shown in turn
 constexpr int kShapeFps = 30;
 constexpr int kShapeRounds = 16, kFrameRounds = 4;
-constexpr int kIterations = 400;       // of a pose, and how exactly it is
-constexpr double kTolerance_m = 5e-6;  // at rest: what landmarks are told to
+constexpr int kIterations = 400;  // iterations per pose
+// Displacement per iteration that counts as equilibrium; landmarks need it to be small
+constexpr double kTolerance_m = 5e-6;
 
 track::Drive nothing(const track::ChannelTable& channels) {
     track::Drive drive;
@@ -54,7 +55,7 @@ void add_channel(std::vector<ActivationUnknown>& unknowns, Kinematic which, doub
                         .scale = scale});
 }
 
-// Muscles and the jaw; pressure; gaze and tongue where their parts are counted.
+// Unknowns of muscles and jaw; of mouth pressure; of gaze and tongue if their parts have weight.
 std::vector<ActivationUnknown> unknowns_of(const scene::RigFiles& files, const rig::Head& head,
                                            const Eigen::VectorXd& weight) {
     std::vector<ActivationUnknown> out =
@@ -145,7 +146,7 @@ class Solver {
             seek(*face, t, last, fit, out[t]);
             last = out[t].drive;
         }
-        // Between both neighbours
+        // Keep the solution near both neighbours.
         fit.keep = 2 * options_.temporal_weight;
         fit.rounds = 1;
         for (std::size_t t = out.size(); t-- > 0;) {
@@ -196,7 +197,7 @@ class Solver {
     const std::vector<ActivationUnknown>& unknowns_;
 };
 
-// Every shape in turn, or the frames as they come; muscles straight to their activation.
+// A script of every shape in turn, or of the frames of the sequence; activations are set directly.
 Json script_of(const SolveReport& report, const SolveOptions& options) {
     const double each_s = 2 * kRamp_s + kHold_s;
     const double duration_s = report.sequence ? report.solved.back().time_s + 1.0 / options.fps
@@ -300,7 +301,7 @@ SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor
     face::Face face(files.rig, files.mesh, face::quality_named(options.quality), files.place());
     FitTarget given;
     if (!options.landmarks.empty()) {
-        // How far everything that is sought moves each landmark at most
+        // Largest displacement of each landmark by any of the unknowns
         const scene::LandmarkPoints points(face.head(), files.rig);
         const track::Drive rest = nothing(files.rig.channels());
         face.start([&](double) { return rest; });

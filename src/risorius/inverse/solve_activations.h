@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// `risorius solve`: finds the muscle activations for measured or sculpted shapes, or for landmarks over time, and writes them as a script.
+/// `risorius solve`: finds the muscle activations that reproduce measured or sculpted shapes, or landmarks over time, and writes
+/// them as a script.
 ///
 ///   minimise over a_t   sum_t ( 1/2 |u(a_t) - g_t|_w^2 / G + l1 |a_t|_1 + l2/2 |a_t|^2 ) + temporal/2 sum_t |a_t - a_t-1|^2
 ///
 ///   a_t   activations of muscles, jaw, gaze, tongue, pressure in the mouth, each within its range
-///   u     displacement of the face in equilibrium      g   what is given, m
+///   u     displacement of the face in equilibrium      g   the target, m
 ///   w     skin area of a vertex, and a fifth of its mean for vertices of other parts that the shapes move; 1 for landmarks
-///   G     |g|_w^2; of a sequence the largest of all frames
+///   G     |g|_w^2; for a sequence its maximum over the frames
 ///
-/// Shapes are solved independently, each from rest. Frames of a sequence start from the frame before, and are then solved once more
-/// backwards in time, between both neighbours.
+/// Shapes are solved independently, each from rest. The frames of a sequence start from the previous frame. Afterwards they are
+/// solved once more, backwards in time, with terms to both neighbours.
 #pragma once
 
 #include <filesystem>
@@ -24,41 +25,45 @@
 
 namespace risorius::inverse {
 
+/// Options of solve_activations().
 struct SolveOptions {
     std::filesystem::path rig = {}, out = {};  ///< out: a folder
-    /// Exactly one of these three. A table of "Measured shapes" (.json), or shapes.glb of `risorius shapes`.
+    /// Exactly one of the following three is given. A table of measured shapes (.json), or shapes.glb of `risorius shapes`.
     std::filesystem::path shapes = {};
-    std::vector<std::filesystem::path> meshes = {};  ///< the rig's mesh with displaced vertices
+    /// Copies of the rig's mesh with displaced vertices
+    std::vector<std::filesystem::path> meshes = {};
     std::filesystem::path landmarks = {};  ///< a table: time_s, ID.x_mm, ID.y_mm, ID.z_mm, ...
-    std::vector<std::string> only = {};    ///< of `shapes`; empty: all
+    std::vector<std::string> only = {};    ///< names in `shapes`; empty: all
     std::string quality = "preview";
     double l1_weight = 2e-4, l2_weight = 2e-4, temporal_weight = 2e-2;
-    int fps = 30;     ///< at most so many frames of a sequence per second are solved
-    int threads = 0;  ///< shapes solved at a time; results do not depend on it
+    int fps = 30;  ///< maximum number of frames of a sequence that are solved per second
+    /// Number of shapes that are solved at the same time; results do not depend on it
+    int threads = 0;
 };
 
-/// A shape, or a frame.
+/// The solution of a shape or frame.
 struct SolvedDrive {
     std::string name;
-    double time_s = 0;  ///< of a frame
+    double time_s = 0;  ///< time of a frame
     track::Drive drive;
-    double rms_m = 0, max_m = 0;  ///< of u - g over the points that count
-    double given_rms_m = 0;       ///< of g
+    double rms_m = 0, max_m = 0;  ///< of u - g over the vertices or landmarks with weight
+    double given_rms_m = 0;       ///< RMS of g
     double highest = 0;           ///< largest activation of a muscle
 };
 
+/// The result of solve_activations().
 struct SolveReport {
     std::string name, rig, given;
     bool sequence = false;
-    int points = 0;  ///< number of vertices or landmarks that count
+    int points = 0;  ///< number of vertices or landmarks with weight
     track::ChannelTable channels;
     std::vector<SolvedDrive> solved;
 
-    double rms_m() const;  ///< RMS over all shapes or frames, with equal weights
+    double rms_m() const;  ///< RMS over all shapes or frames, equally weighted
     Json json() const;
 };
 
-/// Writes OUT/script.json, which `render` plays, and OUT/results.json; both or none. Throws Error, Interrupted.
+/// Solves and writes OUT/script.json, which `render` plays, and OUT/results.json: both or none. Throws Error, Interrupted.
 SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::inverse

@@ -12,17 +12,17 @@
 namespace risorius::render {
 namespace {
 
-constexpr double kPenWidth = 0.13;   ///< of the height of a capital
-constexpr double kLetterGap = 0.20;  ///< between letters, of that height
+constexpr double kPenWidth = 0.13;   ///< ratio to the height of a capital
+constexpr double kLetterGap = 0.20;  ///< between letters, ratio to the height of a capital
 
-using Line = std::vector<Vec2>;  ///< x to the right, y down, baseline 0, height of a capital 1
+using Line = std::vector<Vec2>;  ///< x to the right, y down, baseline at 0, height of a capital 1
 
 struct Letter {
     double width = 0.4;
     std::vector<Line> lines;
 };
 
-/// Part of an ellipse, angles in degrees from the right, clockwise as seen.
+/// Part of an ellipse; angles in degrees clockwise from the right, as seen in the picture.
 Line arc(double x, double y, double rx, double ry, double from_deg, double to_deg) {
     constexpr int kSteps = 14;
     Line line;
@@ -87,8 +87,9 @@ void add_small_letters(Alphabet& of) {
 
 void add_capitals(Alphabet& of) {
     const Line stem{{0, 0}, {0, -1}};
-    const Line head = joined(
-        {{0, -1}}, joined(arc(0.30, -0.73, 0.27, 0.27, 270, 450), {{0, -0.46}}));  // of P and R
+    // The bowl of P and R
+    const Line head =
+        joined({{0, -1}}, joined(arc(0.30, -0.73, 0.27, 0.27, 270, 450), {{0, -0.46}}));
     of['A'] = {0.72, {{{0, 0}, {0.36, -1}, {0.72, 0}}, {{0.12, -0.34}, {0.60, -0.34}}}};
     of['B'] = {
         0.60,
@@ -171,7 +172,7 @@ const Letter& letter(char c) {
     return kAlphabet[code < 128 ? code : 0];
 }
 
-/// Bytes that go on with a letter of UTF-8 are no letters of their own.
+/// Continuation bytes of UTF-8 do not start a letter.
 bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
 double distance_to(const Line& line, const Vec2& p) {
@@ -196,7 +197,7 @@ double text_width(std::string_view text) {
 }
 
 void write_text(std::string_view text, const Vec2& at, const TextStyle& style, Image& image) {
-    constexpr double kBelow = 0.3;  ///< what hangs below the line
+    constexpr double kBelow = 0.3;  ///< descenders
     const double half = std::max(0.55, 0.5 * kPenWidth * style.height_px);
     const double rim = style.rim > 0 ? 0.10 * style.height_px + 0.6 : 0.0;
     const int reach = static_cast<int>(std::ceil(half + rim)) + 1;

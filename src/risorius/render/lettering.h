@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Short texts in pictures: names and numbers in letters of constant stroke width, antialiased, the same on every machine.
+/// Short texts in pictures in an antialiased stroke font, which draws the same pixels on every machine.
 ///
-/// Letters, digits and the marks . , : ; - + / % ( ) _ = ' of ASCII; anything else shows as a box.
+/// The font has the ASCII letters, digits and the marks . , : ; - + / % ( ) _ = '. Any other character is drawn as a box.
 #pragma once
 
 #include <string_view>
@@ -13,15 +13,16 @@
 namespace risorius::render {
 
 struct TextStyle {
-    double height_px = 12;  ///< of a capital
+    double height_px = 12;  ///< height of a capital letter
     double ink = 0.08;      ///< grey, sRGB: 0 black, 1 white
-    double rim = 0;  ///< opacity of a rim of the other tone, so that it can be read on anything
+    /// Opacity of an outline in the opposite tone, which makes text readable on any background
+    double rim = 0;
 };
 
-/// Of the height of a capital.
+/// Width of a text in heights of a capital letter.
 double text_width(std::string_view text);
 
-/// `at`: left end of the baseline, px from the upper left corner. What does not fit is cut off.
+/// Draws the text. `at`: left end of the baseline, px from the upper left corner of the image. Text outside the image is cut off.
 void write_text(std::string_view text, const Vec2& at, const TextStyle& style, Image& image);
 
 }  // namespace risorius::render

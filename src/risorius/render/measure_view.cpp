@@ -15,7 +15,7 @@ constexpr int kSamples = 2;  // per pixel side
 constexpr int kLargest_px = 8192;
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
-/// x right, y down, depth growing towards the eye; samples and metres.
+/// X to the right, y down, depth growing towards the viewer; in samples and metres.
 struct Canvas {
     int width, height;
     std::vector<Vec3> colour;
@@ -48,7 +48,7 @@ class Viewpoint {
                 r.dot(towards_)};
     }
     const Vec3& towards() const { return towards_; }
-    /// Light from above the eye, to one side.
+    /// Shading by a light above the viewer and to one side.
     double light(const Vec3& normal) const {
         const Vec3 from = (towards_ + 0.35 * Vec3::UnitY() + 0.25 * right_).normalized();
         return 0.55 + 0.45 * std::max(0.0, normal.dot(from));
@@ -90,7 +90,7 @@ void draw_surface(const ColouredSurface& surface, const Viewpoint& eye, Canvas& 
         }
         const double area = (at[1].x() - at[0].x()) * (at[2].y() - at[0].y()) -
                             (at[2].x() - at[0].x()) * (at[1].y() - at[0].y());
-        if (area == 0 || (surface.opacity < 1 && area > 0)) continue;  // y runs down
+        if (area == 0 || (surface.opacity < 1 && area > 0)) continue;  // y points down
         const auto low = [&](int axis) {
             return std::min({at[0][axis], at[1][axis], at[2][axis]});
         };
@@ -128,7 +128,7 @@ void draw_surface(const ColouredSurface& surface, const Viewpoint& eye, Canvas& 
                 (1 - surface.opacity) * canvas.colour[i] + surface.opacity * own.colour[i];
 }
 
-/// Where the surfaces leave it free.
+/// Draws a disc where no surface hides it.
 void draw_disc(const Vec3& at, double radius, double hole, const Vec3& colour, double above,
                Canvas& canvas) {
     const int x0 = std::max(0, static_cast<int>(at.x() - radius - 1));

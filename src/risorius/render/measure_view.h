@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Pictures for measurement: surfaces in given colours in parallel projection along an axis, with marks and lines. Rendered in software
-/// without OpenGL, without perspective or light that changes a colour; the same bytes on every machine.
+/// Pictures for measurement: surfaces in given colours in parallel projection, with marks and lines. The colours are rendered in
+/// software without OpenGL and are the same bytes on every machine.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,16 @@
 
 namespace risorius::render {
 
+/// A surface with one colour per vertex.
 struct ColouredSurface {
     Points positions;  ///< V x 3, m
     Triangles triangles;
     std::vector<Vec3> colours;  ///< V, sRGB 0..1
-    double opacity =
-        1;  ///< below 1: laid over what is behind it, front faces only, marks and lines shine through
+    /// 0..1. Below 1 only front faces are drawn, blended over what is behind them, and marks and lines shine through.
+    double opacity = 1;
 };
 
+/// A disc or a ring at a point.
 struct Mark {
     Vec3 at;      ///< m
     Vec3 colour;  ///< sRGB 0..1
@@ -26,6 +28,7 @@ struct Mark {
     bool ring = false;  ///< a ring rather than a disc
 };
 
+/// A polyline.
 struct MarkedLine {
     std::vector<Vec3> points;  ///< m
     Vec3 colour;
@@ -36,17 +39,17 @@ struct MeasureViewOptions {
     int width_px = 600, height_px = 800;
     double azimuth_deg = 0;  ///< from straight ahead of the face towards its left
     Vec3 centre = Vec3::Zero();
-    double height_m = 0.3;        ///< of what is seen
-    double marks_above_m = 4e-3;  ///< marks and lines this far behind a surface still show
+    double height_m = 0.3;        ///< height of the visible area
+    double marks_above_m = 4e-3;  ///< marks and lines up to this far behind a surface still show
     Vec3 background{1, 1, 1};
 };
 
-/// Throws Error for a size outside of [1, 8192].
+/// Draws surfaces, then lines and marks. Throws Error for a size outside [1, 8192].
 Image draw_measured(const std::vector<ColouredSurface>& surfaces, const std::vector<Mark>& marks,
                     const std::vector<MarkedLine>& lines, const MeasureViewOptions& options);
 
-/// Dark blue over green to yellow, lightness growing evenly, for 0..1; beyond as its ends. Samples of matplotlib's viridis
-/// (S. van der Walt, N. Smith 2015, CC0).
+/// Colour map from dark blue over green to yellow for 0..1, with evenly growing lightness; values outside are clamped. Samples of
+/// viridis of matplotlib (S. van der Walt, N. Smith 2015, CC0).
 Vec3 scale_colour(double fraction);
 
 }  // namespace risorius::render

@@ -42,7 +42,7 @@ ObjectRow framed(const std::vector<Object>& objects, const ObjectViewOptions& op
                          options.width_px, options.height_px);
 }
 
-/// The parts of one object in GL.
+/// The parts of one object in GL memory.
 class PartBuffer {
   public:
     explicit PartBuffer(const std::vector<PartVertex>& vertices)
@@ -133,7 +133,7 @@ Image ObjectView::draw() {
     view.target->bind();
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
-    glEnable(GL_FRAMEBUFFER_SRGB);  // blends linear light
+    glEnable(GL_FRAMEBUFFER_SRGB);  // blend in linear light
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     for (const Tile& tile : view.picture.tiles()) {
@@ -146,7 +146,7 @@ Image ObjectView::draw() {
             glUniformMatrix4fv(view.program->location("clip_from_world"), 1, GL_FALSE, clip.data());
             view.buffers[i]->draw();
         }
-        // What is read back is encoded already.
+        // The samples are already encoded in sRGB.
         glDisable(GL_FRAMEBUFFER_SRGB);
         finish_drawing();
         view.picture.read_back(tile, view.resolve, image);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Draws deformed objects off-screen as figures in papers show them: a transparent shaded surface, its grid as
-/// wires that pale with distance, nodes that are held as balls. White background, z up, a
-/// three-quarter view in mild perspective, framed so that every vertex is inside.
+/// Draws deformed objects off-screen like figures in papers: a transparent shaded surface, its grid as wires that grow paler with
+/// distance, and fixed nodes as balls. The background is white, z is up, and a three-quarter view in mild perspective frames
+/// every vertex.
 ///
-/// Several objects stand in a row in the order given, at the same scale and height, so that they can be compared.
+/// Several objects stand in a row in the given order, at the same scale and height, so that they can be compared.
 /// Deterministic: the same objects and options give the same bytes, for any number of threads.
 #pragma once
 
@@ -17,29 +17,32 @@
 
 namespace risorius::render {
 
+/// An object to draw.
 struct Object {
     Points positions;   ///< V x 3, m, z up
-    Triangles surface;  ///< F x 3, all wound the same way; may have no rows
-    std::vector<std::array<int, 2>>
-        wires;                  ///< pairs of vertices; those inside of a solid are drawn finer
-    std::vector<int> fixed;     ///< vertices drawn as balls
+    Triangles surface;  ///< F x 3, all with the same winding; may have no rows
+    /// Pairs of vertices; wires inside a solid are drawn thinner
+    std::vector<std::array<int, 2>> wires;
+    std::vector<int> fixed;     ///< vertices that are drawn as balls
     std::vector<double> shade;  ///< empty, or per vertex: 0 blue, 0.5 pale, 1 orange; clamped
-    Points outline = {};  ///< 2S x 3, m: ends of thin pale lines, such as the undeformed outline
+    /// 2S x 3, m: ends of thin pale lines, for instance the undeformed outline
+    Points outline = {};
 };
 
 struct ObjectViewOptions {
     int width_px = 1200;
     int height_px = 900;
-    double azimuth_deg = -58;   ///< of the camera about z: 0 looks from +x, -90 from -y
+    double azimuth_deg = -58;   ///< azimuth of the camera about z: 0 looks from +x, -90 from -y
     double elevation_deg = 18;  ///< of the camera above the horizontal, -90..90
     int supersampling = 3;      ///< samples per pixel side, 1..4
     int threads = 0;            ///< as in ViewOptions
 };
 
+/// Draws one picture of the objects.
 class ObjectView {
   public:
-    /// Throws Error for no object, vertex indices out of range, positions that are not finite or options out of their range, RunError when no GL
-    /// context is available.
+    /// Throws Error for an empty list, vertex indices out of range, positions that are not finite and options out of range, and
+    /// RunError when no GL context is available.
     ObjectView(const std::vector<Object>& objects, const ObjectViewOptions& options);
     ~ObjectView();
     ObjectView(const ObjectView&) = delete;

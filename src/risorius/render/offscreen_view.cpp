@@ -39,7 +39,7 @@
 namespace risorius::render {
 namespace {
 
-// What drawn skin and eyes may lose, in samples of the picture, and what throws shadows, whose edges are 3.5 mm wide.
+// Errors of simplified skin and eyes, in samples of the picture, and of shadow casters, whose shadow edges are 3.5 mm wide.
 constexpr double kCoarseSamples = 0.6, kCoarseShadow_m = 0.25e-3, kCoarseEyeSamples = 0.2,
                  kCoarseMovedSamples = 0.2, kDraftSkin_m = 0.7e-3;
 
@@ -65,7 +65,7 @@ Box skin_box(const Scene& scene) {
         for (Eigen::Index i = 0; i < surface.triangles.size(); ++i) {
             const int v = surface.triangles.data()[i];
             if (v < 0 || v >= scene.rest.rows())
-                continue;  // reported with its place by SceneBuffers
+                continue;  // SceneBuffers reports it with its place
             box.min = box.min.cwiseMin(scene.rest.row(v).transpose());
             box.max = box.max.cwiseMax(scene.rest.row(v).transpose());
         }
@@ -74,7 +74,7 @@ Box skin_box(const Scene& scene) {
     return box;
 }
 
-/// Painted scalp hair would hide what lies below; the brows stay.
+/// Hair on the scalp would hide what lies below and is removed; the brows stay.
 Scene without_hair(Scene scene) {
     scene.appearance.scalp_hair = scene.appearance.hair_length_mm =
         scene.appearance.beard_length_mm = 0;
@@ -106,16 +106,16 @@ Show show_named(const std::string& name, const std::string& place) {
     return static_cast<Show>(index_of_name(place, name, show_names()));
 }
 
-/// What takes long to find out about a scene, and all views of it share.
+/// Results of expensive precomputation, shared by all views of a scene.
 struct Baked {
-    std::vector<float> sky,
-        inside;  ///< how much sky each vertex sees, whether it is inside the mouth
+    /// Sky that each vertex sees, and whether the vertex is inside the mouth
+    std::vector<float> sky, inside;
     std::optional<SkyAboutEyes> sky_about_eyes;
     std::vector<Strand> hair;
     bool mesh_lashes = true;
     std::unique_ptr<OwnTextures> own;
     GLuint paint_map = 0, pore_map = 0;
-    ~Baked() {  // in the context of the last view
+    ~Baked() {  // runs in the context of the last view
         glDeleteTextures(1, &paint_map);
         glDeleteTextures(1, &pore_map);
     }
@@ -193,22 +193,23 @@ struct OffscreenView::Impl {
             throw RunError("OpenGL error " + std::to_string(error) + " while the scene was set up");
     }
 
-    /// Whether the skin lets something through.
+    /// Whether the skin is translucent.
     bool looks_inside() const {
         return options.show == Show::kMuscles || options.show == Show::kSkull;
     }
 
-    /// Samples of skin that are shaded per pixel and side; as many as there are where one asks for more than 8 bits.
+    /// Places of skin that are shaded per pixel side; equal to the samples when more than 8 bits are wanted.
     int shaded_per_side() const {
         if (options.deep || looks_inside()) return options.supersampling;
         return std::max(options.supersampling / 2, 1);
     }
 
-    /// Of skin whose colours come from its shader, by the samples of the picture.
+    /// Simplification of skin with generated colours, by the sample size of the picture.
     Coarseness coarseness() const {
         if (options.deep || looks_inside()) return {};
         const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
-        // A draft may lose more; how much of the form is told by its vertices, so large pictures lose no more than small ones.
+        // A draft may be coarser. Its shading depends on the vertices, so the error is limited in large pictures as in small
+        // ones.
         const double enough = kDraftSkin_m / (kCoarseSamples * sample_m);
         const double skin = options.draft ? std::clamp(enough, 1.5, 3.0) : 1,
                      others = options.draft ? 2 : 1;
@@ -225,7 +226,7 @@ struct OffscreenView::Impl {
         const auto sky_over = [&](const Points& positions) {
             return sky_seen(positions, buffers->normals(), buffers->batches(), centre, reach);
         };
-        // The skin folds most finely, in nostrils and ears.
+        // The skin has the finest folds, in nostrils and ears.
         std::vector<unsigned> skin;
         for (const Batch& batch : buffers->batches())
             if (batch.material == Material::kSkin)
@@ -253,11 +254,11 @@ struct OffscreenView::Impl {
                                     paint_side(options.height_px / camera.frame_height_m));
         out->pore_map = make_pores(scene.appearance.seed);
         grow_hair(scene, centre, *out);
-        finish_drawing();  // other contexts may look at the maps from now on
+        finish_drawing();  // other contexts may read the maps from now on
         return out;
     }
 
-    /// Lashes of the mesh are only drawn where none of their own can be grown.
+    /// The lash ribbons of the mesh are drawn only where no lashes can be generated.
     void grow_hair(const Scene& scene, const Vec3& centre, Baked& out) const {
         if (!has_own_skin(scene))
             out.hair = plan_brows(scene, plan_skin(scene, centre), centre,
@@ -289,7 +290,7 @@ struct OffscreenView::Impl {
         buffers.reset();
     }
 
-    /// The cells that need samples, with the skin in them from its layer.
+    /// Draws the skin of the layer into the cells that need samples.
     void look_up_skin(const Tile& tile) {
         target->bind_bytes();
         cell_clear->clear(cells, tile.width, tile.height);
@@ -299,7 +300,7 @@ struct OffscreenView::Impl {
             if (batch.material == Material::kSkin) buffers->draw(batch);
     }
 
-    /// Everything the face is seen by; `looked_up`: the skin is there already.
+    /// Draws all visible surfaces. `looked_up`: the skin is already drawn.
     void draw_surfaces(const Pose& pose, bool looked_up) {
         for (const Batch& batch : buffers->batches()) {
             if (batch.material == Material::kLashes && !baked->mesh_lashes) continue;
@@ -362,7 +363,7 @@ struct OffscreenView::Impl {
             draw_surfaces(pose, looked_up);
         }
         glDisable(GL_FRAMEBUFFER_SRGB);
-        finish_drawing();  // which reading would wait for
+        finish_drawing();  // otherwise reading back would wait for it
         const double drawn_s = processor_s();
         if (looked_up)
             picture.read_back(tile, resolve, cells, skin_layer->places(), skin_layer->shaded(),
@@ -376,7 +377,7 @@ struct OffscreenView::Impl {
     Appearance appearance;
     Box box;
     Camera camera;
-    std::vector<Mat4> views;  ///< through the places of the lens
+    std::vector<Mat4> views;  ///< one per point of the lens aperture
     PosedMarks marks;
     TiledPicture picture;
     Resolve resolve;
@@ -384,8 +385,8 @@ struct OffscreenView::Impl {
     Eigen::Index vertex_count;
     GlContext context;
     std::unique_ptr<SceneBuffers> buffers;
-    std::unique_ptr<MuscleLayer> muscles;  ///< when they are shown
-    std::unique_ptr<BoneLayer> bones;      ///< likewise
+    std::unique_ptr<MuscleLayer> muscles;  ///< only with Show::kMuscles
+    std::unique_ptr<BoneLayer> bones;      ///< only with Show::kSkull
     std::unique_ptr<Materials> materials;
     std::unique_ptr<StrandLayer> hair;
     std::unique_ptr<SocketLayer> sockets;
@@ -393,11 +394,12 @@ struct OffscreenView::Impl {
     std::unique_ptr<ShellLayer> shells;
     std::unique_ptr<Lights> lights;
     std::unique_ptr<CellClear> cell_clear;
-    std::unique_ptr<SkinLayer> skin_layer;  ///< when it is shaded less often than sampled
+    /// Null unless the skin is shaded at fewer places than sampled
+    std::unique_ptr<SkinLayer> skin_layer;
     std::unique_ptr<Framebuffer> target;
     std::shared_ptr<Baked> baked;
-    std::optional<SkyAboutEyes>
-        sky_about_eyes;  ///< a copy of its own, which keeps what was seen last
+    /// A copy per view, because it caches the last result
+    std::optional<SkyAboutEyes> sky_about_eyes;
     GLuint frame_buffer = 0;
     double read_back_s = 0;
 };
@@ -423,7 +425,7 @@ Image OffscreenView::draw(const Pose& pose) {
                     std::to_string(pose.values->at.size()));
     const GlContext::Current current(view.context);
 
-    // What moved
+    // Uploads of the pose
     view.read_back_s = 0;
     view.buffers->bind();
     view.buffers->upload(pose.positions, pose.fold_depth);

@@ -18,91 +18,95 @@
 
 namespace risorius::render {
 
+/// Background of a picture.
 struct Background {
     bool transparent = false;
     std::array<double, 3> rgb{0.5, 0.5, 0.5};  ///< sRGB 0..1
     bool operator==(const Background&) const = default;
 };
 
-/// The content of a picture.
+/// What a picture shows.
 enum class Show {
-    kSkin,     ///< the face as it is seen
-    kMuscles,  ///< the muscles coloured by activation, under translucent skin, with a scale
-    kSkull,    ///< skull, mandible and teeth under skin as clear as glass
-    // The skin, with something that the caller adds: values of a pose, or lines and marks over the picture
+    kSkin,     ///< the face
+    kMuscles,  ///< muscles coloured by activation under translucent skin, with a scale
+    kSkull,    ///< skull, mandible and teeth under glassy skin
+    // The skin with additions of the caller: values of a pose, or lines and marks over the picture.
     kWire,       ///< the mesh's edges
     kStrain,     ///< principal strain of the skin
-    kError,      ///< distance of the skin from that in another run
-    kLandmarks,  ///< their places and names
+    kError,      ///< distance of the skin from the skin of another run
+    kLandmarks,  ///< positions and names of the landmarks
 };
-/// "skin", "muscles", "skull", "wire", "strain", "error", "landmarks"
+/// The names of Show: "skin", "muscles", "skull", "wire", "strain", "error", "landmarks".
 const std::vector<std::string>& show_names();
-/// Throws Error naming `place` and the names for an unknown one.
+/// Throws Error naming `place` and the valid names for an unknown name.
 Show show_named(const std::string& name, const std::string& place);
 
-/// The lens and place of the named camera; what is not given frames the head as the camera's name says.
+/// Lens and distance of the named camera. Fields that are not given are chosen so that the camera frames the head.
 struct Lens {
     bool orthographic = false;
-    std::optional<double> distance_m;      ///< of the camera from the middle of the head, 0.2..100
-    std::optional<double> view_angle_deg;  ///< that the height of the picture subtends, 0.5..90
-    double aperture_mm =
-        0;  ///< diameter of the aperture, 0..100; 0: sharp at every distance. In focus: the front of the eyes
+    std::optional<double> distance_m;      ///< from the camera to the middle of the head, 0.2..100
+    std::optional<double> view_angle_deg;  ///< angle that the picture covers vertically, 0.5..90
+    /// Diameter of the aperture, 0..100; 0: sharp at every distance. The front of the eyes is in focus.
+    double aperture_mm = 0;
     bool operator==(const Lens&) const = default;
 };
 
 struct ViewOptions {
     int width_px = 1024;
     int height_px = 1024;
-    std::string camera =
-        "front";  ///< "front", "three_quarter", "profile" and their "_right" mirrors, "top", and close-ups; see camera_names()
+    /// Name of camera_names(): "front", "three_quarter", "profile" and their "_right" mirror images, "top", and close-ups.
+    std::string camera = "front";
     Show show = Show::kSkin;
-    bool deep = false;  ///< pictures with 16 bits besides, without the scale of values
+    bool deep = false;  ///< also make pictures with 16 bits per channel, without the colour scale
     Background background{};
     LightOptions light{};
     Lens lens{};
-    int supersampling =
-        2;  ///< samples per pixel side, 1..4; all are shaded, so cost grows with its square
-    bool draft =
-        false;  ///< skin lit at its vertices, without pores and wrinkles finer than the mesh
-    int threads =
-        0;  ///< llvmpipe worker threads; 0 = draw on the calling thread. The driver reads it once: the
-            ///< first view of a process decides for all. Pictures do not depend on it.
+    /// Samples per pixel side, 1..4. All are shaded, so the cost grows with the square.
+    int supersampling = 2;
+    /// Fast skin: lit at its vertices, without pores and wrinkles finer than the mesh
+    bool draft = false;
+    /// Worker threads of llvmpipe; 0: draw on the calling thread. The driver reads it once, so the first view of a process decides
+    /// for all. Pictures do not depend on it.
+    int threads = 0;
     bool operator==(const ViewOptions&) const = default;
 };
 
 const std::vector<std::string>& camera_names();
 
+/// Draws pictures of one scene.
 class OffscreenView {
   public:
-    /// Throws Error for a scene without skin or a size outside 16..8192, RunError when no GL context is available.
+    /// Throws Error for a scene without skin or a size outside 16..8192, and RunError when no GL context is available.
     OffscreenView(const Scene& scene, const ViewOptions& options);
-    /// Another view of the same scene with the same options, to draw at the same time on another thread: the same pictures. Shares
-    /// what `first` has baked, which must not be drawing meanwhile; they may go away in any order.
+    /// Another view of the same scene with the same options, which draws the same pictures on another thread. It shares the baked
+    /// data of `first`, which must not draw during the construction. The views may be destroyed in any order.
     OffscreenView(const Scene& scene, const OffscreenView& first);
     ~OffscreenView();
     OffscreenView(const OffscreenView&) = delete;
     OffscreenView& operator=(const OffscreenView&) = delete;
 
-    /// pose.positions must have as many rows as scene.rest. May be called from one thread at a time, any thread.
+    /// Draws a pose; pose.positions must have as many rows as scene.rest. One thread at a time may call it, and it may be any
+    /// thread.
     Image draw(const Pose& pose);
-    /// Mean of several moments in linear light: a shutter that was open for all of them.
+    /// Mean of several moments in linear light: motion blur of a shutter that is open for all of them.
     Image draw(const std::vector<Pose>& poses);
 
-    /// The colours of the skin without light, on the texture coordinates of its surfaces: a square picture, sRGB. Lashes and brows,
-    /// which are strands, are not in it. `scene` is the view's. Throws Error for a skin without texture coordinates.
-    /// The wall of the mouth is, where it has texture coordinates that the skin leaves free.
+    /// The colours of the skin without light on the texture coordinates of its surfaces, as a square picture in sRGB. Lashes and
+    /// brows are strands and are not included. The wall of the mouth is included where its texture coordinates do not overlap the
+    /// skin. `scene`: the scene of this view. Throws Error for a skin without texture coordinates.
     Image skin_texture(const Scene& scene, int side_px) const;
-    /// Likewise the colours of kEye, kTeeth, kGums or kTongue: an iris as it is seen from straight ahead, teeth warmer at the neck and
-    /// grey at the edge. `crown_height`: of each vertex of the scene, 0 at the neck of its tooth to 1 at the edge; or nothing.
+    /// The same for kEye, kTeeth, kGums or kTongue. An iris is drawn as seen from straight ahead; teeth are warmer at the neck
+    /// and grey at the edge. `crown_height`: per vertex of the scene, from 0 at the neck of its tooth to 1 at the edge; may be
+    /// empty.
     Image part_texture(const Scene& scene, Material part, int side_px,
                        const std::vector<double>& crown_height = {}) const;
 
-    /// Processor time of the process, s, from when the last picture was drawn until it was in memory.
+    /// CPU time of the process for reading back the last picture, s: from the end of drawing until it was in memory.
     double read_back_s() const;
 
     /// Pixel position (x right, y down, from the top left corner) of a world point.
     Vec2 project(const Vec3& world) const;
-    /// The camera as OpenGL has it: x right and y up in [-w, w] in the picture.
+    /// The matrix of the camera in the convention of OpenGL: in the picture x (right) and y (up) are in [-w, w].
     Eigen::Matrix4d clip_from_world() const;
 
   private:

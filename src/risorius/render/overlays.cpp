@@ -12,7 +12,8 @@ namespace risorius::render {
 namespace {
 
 const Vec3 kWireInk(0.02, 0.10, 0.30), kDotInk(0.98, 0.80, 0.10), kDotRim(0.05, 0.05, 0.05);
-/// Lines lie on the surface that may hide them; landmarks may lie below it, as in the corner of a mouth.
+/// Tolerances of the depth test: lines lie on the surface that may hide them; landmarks may lie below it, as in the corner of the
+/// mouth.
 constexpr double kWireAbove_m = 1e-3, kDotAbove_m = 5e-3;
 constexpr int kReadable_px = 700;
 
@@ -21,7 +22,8 @@ void blend_at(int x, int y, const Vec3& ink, double cover, Image& image) {
     blend(image.pixel(x, y), ink, cover);
 }
 
-/// Between two places in the picture, its opacity shared by the two pixels it runs between (Wu 1991).
+/// Antialiased line between two points of the picture; its opacity is split between the two pixels on either side of it (Wu
+/// 1991).
 void draw_line(const Vec3& a, const Vec3& b, double opacity, const SurfacePasses& passes,
                const SeenSurface& seen, Image& image) {
     const Vec3 way = b - a;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Lines and marks over a finished picture, hidden behind the head.
+/// Lines and marks over a finished picture, hidden behind the head where they lie behind it.
 #pragma once
 
 #include <array>
@@ -12,16 +12,17 @@
 
 namespace risorius::render {
 
-/// Edges of a mesh as thin lines, paler where they are dense.
+/// Draws the edges of a mesh as thin lines, which are paler where they are dense.
 void draw_wire(const std::vector<std::array<int, 2>>& edges, const SurfacePasses& passes,
                const SeenSurface& seen, Image& image);
 
+/// A point with a name.
 struct NamedPoint {
     std::string name;
     Vec3 at;  ///< world, m
 };
 
-/// Dots, with their names when the picture is large enough to read them.
+/// Draws dots, with their names when the picture is large enough to read them.
 void draw_landmarks(const std::vector<NamedPoint>& points, const SurfacePasses& passes,
                     const SeenSurface& seen, Image& image);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What is drawn: surfaces of one material each over one shared vertex array, and what the materials need to know about the head. Positions
-/// change in every frame; everything here is constant.
+/// Description of what is drawn: surfaces, each of one material, over one shared vertex array, and what the materials need to
+/// know about the head. Everything in a Scene is constant; a Pose holds what changes in every frame.
 ///
-/// Frame: the head frame, metres: origin between the tragia, x to the subject's left, y up, z forward.
+/// Head frame, m: origin between the tragia, x to the subject's left, y up, z forward.
 #pragma once
 
 #include <array>
@@ -17,6 +17,7 @@
 
 namespace risorius::render {
 
+/// What a surface is made of.
 enum class Material {
     kSkin,
     kEye,
@@ -26,103 +27,110 @@ enum class Material {
     kTongue,
     kMouth,
     kLashes,
-    kMatte  ///< a card that measures the light: sends back its share of it evenly
+    kMatte  ///< a card for light measurements: a diffuse reflector
 };
 
+/// Triangles of one material.
 struct Surface {
     Material material = Material::kSkin;
     Triangles triangles;        ///< F x 3, into the shared vertices
-    TexCoords texcoords;        ///< 3F x 2 per triangle corner, or 0 rows
+    TexCoords texcoords;        ///< 3F x 2, one row per triangle corner, or 0 rows
     int eye = -1;               ///< for kEye and kCornea: 0 left, 1 right
-    double reflectance = 0.18;  ///< of kMatte; those of a scene share it
-    int texture =
-        -1;  ///< into the scene's, for all but kMatte, kCornea and kLashes; -1: generated colours
+    double reflectance = 0.18;  ///< of kMatte; all such surfaces of a scene have the same
+    /// Index into the textures of the scene, not used by kMatte, kCornea and kLashes; -1: generated colours
+    int texture = -1;
 };
 
+/// An eyeball.
 struct Eye {
-    Vec3 centre = Vec3::Zero();  ///< of rotation, m, at rest
+    Vec3 centre = Vec3::Zero();  ///< centre of rotation, m, at rest
     double radius_m = 0.0;
     double iris_radius_m = 0.00595;
     double pupil_radius_m = 0.0018;
-    Vec3 forward = Vec3::UnitZ();  ///< rest optical axis
+    Vec3 forward = Vec3::UnitZ();  ///< optical axis at rest
 };
 
-/// Appearance, generated for any head from its landmarks.
+/// Appearance that is generated for any head from its landmarks.
 struct Appearance {
-    Vec3 skin_tone{0.80, 0.60, 0.50};  ///< sRGB 0..1, average of the cheek
+    Vec3 skin_tone{0.80, 0.60, 0.50};  ///< sRGB 0..1, mean of the cheek
     Vec3 lip_tone{0.72, 0.42, 0.40};
-    Vec3 hair_tone{0.22, 0.15, 0.10};  ///< brows, lashes, stubble of the scalp
+    Vec3 hair_tone{0.22, 0.15, 0.10};  ///< brows, lashes, stubble on the scalp
     Vec3 iris_tone{0.35, 0.50, 0.60};
-    double freckles = 0.15;       ///< 0..1
-    double scalp_hair = 0.6;      ///< 0..1, short hair painted above the hairline
-    double hairline_mm = 0.0;     ///< how much higher the hair of the forehead begins than its mark
-    double temples_mm = 0.0;      ///< how much farther it recedes at the temples than between
-    double hair_length_mm = 0.0;  ///< of the scalp, standing off the skin; 0: cropped, as painted
-    double beard_length_mm = 0.0;  ///< likewise
-    double beard = 0.0;            ///< 0..1, from none over a shadow to a few days' growth
-    double age =
-        0.0;  ///< 0..1, young to old: spots, thinner redness, paler lips, dry skin, grey hair
+    double freckles = 0.15;    ///< 0..1
+    double scalp_hair = 0.6;   ///< 0..1, short hair painted above the hairline
+    double hairline_mm = 0.0;  ///< upward shift of the hairline on the forehead from its landmark
+    double temples_mm = 0.0;   ///< further recession at the temples
+    /// Hair on the scalp that stands off the skin; 0: cropped, painted only
+    double hair_length_mm = 0.0;
+    double beard_length_mm = 0.0;  ///< the same for the beard
+    double beard = 0.0;            ///< 0..1: from none over a shadow to the growth of a few days
+    /// 0..1, young to old: spots, less redness, paler lips, dry skin, grey hair
+    double age = 0.0;
     unsigned seed = 1;
 };
 
-/// A muscle below the skin, a closed surface.
+/// A muscle below the skin: a closed surface.
 struct Muscle {
     std::string name;
     int side = -1;        ///< 0 left, 1 right, -1 across the midline
-    Triangles triangles;  ///< F x 3, into the muscles' own vertices, counter-clockwise from outside
+    Triangles triangles;  ///< F x 3, into the vertices of Muscles, counter-clockwise from outside
 };
 
-/// Seen with Show::kMuscles, over a vertex array of their own.
+/// Muscles over a vertex array of their own; drawn with Show::kMuscles.
 struct Muscles {
     std::vector<Muscle> parts;
     Points rest;                 ///< M x 3, m, head frame
     TexCoords fibre;             ///< M x 2, along and across the fibres at rest, m
-    std::vector<double> tendon;  ///< M, 0 flesh, 1 tendon
+    std::vector<double> tendon;  ///< M, 0 muscle, 1 tendon
 };
 
-/// Skull and mandible, seen with Show::kSkull, over a vertex array of their own.
+/// Skull and mandible over a vertex array of their own; drawn with Show::kSkull.
 struct Bones {
     Points rest;               ///< B x 3, m, head frame
     Triangles triangles;       ///< counter-clockwise from outside
-    std::vector<double> open;  ///< B, 0..1: how much of the surroundings is seen
+    std::vector<double> open;  ///< B, 0..1: fraction of the surroundings that the vertex sees
 };
 
+/// Everything that stays the same from frame to frame.
 struct Scene {
     Points rest;  ///< V x 3, m, head frame
-    Points
-        shut;  ///< V x 3, or no rows: with the eyes shut, for the shade on lids that have unrolled from their crease
+    /// V x 3, or no rows: positions with closed eyes, used to shade the part of the lids that unrolls from the crease
+    Points shut;
     std::vector<Surface> surfaces;
-    std::vector<Image>
-        textures;  ///< sRGB, alpha is not looked at; (0, 0) of texture coordinates is below, left
+    /// sRGB; alpha is ignored. Texture coordinates (0, 0) are the lower left corner
+    std::vector<Image> textures;
     std::map<std::string, Vec3> landmarks;  ///< rest, m; ids of rigs/standard/landmarks.json
     std::array<Eye, 2> eyes;                ///< left, right
     Appearance appearance;
-    Points
-        fold_phase;  ///< V x 3, or no rows for a skin that never folds: up to three sets of wrinkles at a place
-    Muscles muscles;  ///< none unless they are shown
-    Bones bones;      ///< likewise
+    /// V x 3, or no rows for skin without wrinkles: phases of up to three sets of wrinkles per vertex
+    Points fold_phase;
+    Muscles muscles;  ///< empty unless they are shown
+    Bones bones;      ///< empty unless they are shown
 };
 
-/// Whether the skin's colour is a picture of the mesh's, which then shows brows, beard and the hair of the scalp too.
+/// Whether the skin is coloured by a texture of the mesh, which then also shows brows, beard and scalp hair.
 bool has_own_skin(const Scene& scene);
 
-/// A quantity on the skin, shown as colour in place of the skin's own, with a scale in the upper left corner.
+/// A quantity that colours the skin, with a scale in the upper left corner of the picture.
 struct SkinValues {
-    std::string name, unit;   ///< "error", "mm"
-    double from = 0, to = 1;  ///< beyond, the colours are those of the ends; see value_colour.h
-    std::vector<double> at;   ///< V; grey where it is not a number
+    std::string name, unit;  ///< "error", "mm"
+    /// Range of the scale; values outside are clamped, see value_colour.h
+    double from = 0, to = 1;
+    std::vector<double> at;  ///< V; NaN is drawn grey
 };
 
 /// What changes from frame to frame.
 struct Pose {
-    Points positions;  ///< V x 3, m, world = head frame at rest
-    std::array<Mat3, 2> eye_rotation{Mat3::Identity(), Mat3::Identity()};  ///< world from rest eye
-    double jaw_open = 0.0;            ///< ratio, darkens or lights the mouth
-    Points fold_depth;                ///< V x 3, m, of the wrinkles along fold_phase; no rows: none
-    Points muscle_positions;          ///< M x 3, m; with the next: only read when muscles are shown
-    std::vector<double> activations;  ///< per muscle of the scene, ratio
-    Points bone_positions;            ///< B x 3, m; only read when bones are shown
-    std::optional<SkinValues> values;  ///< of this frame; any view shows them
+    Points positions;  ///< V x 3, m, world; equal to the head frame at rest
+    /// Rotation from the rest pose of the eye to the world
+    std::array<Mat3, 2> eye_rotation{Mat3::Identity(), Mat3::Identity()};
+    double jaw_open = 0.0;  ///< 0..1; gives the gap of the lips on a head without lip landmarks
+    Points fold_depth;      ///< V x 3, m, depth of the wrinkles along fold_phase; no rows: none
+    /// M x 3, m; this and activations are read only when muscles are shown
+    Points muscle_positions;
+    std::vector<double> activations;   ///< per muscle of the scene, 0..1
+    Points bone_positions;             ///< B x 3, m; read only when bones are shown
+    std::optional<SkinValues> values;  ///< values of this frame; any view shows them
 };
 
 }  // namespace risorius::render

@@ -14,7 +14,7 @@ namespace risorius::render {
 
 namespace {
 
-/// The same place is seen again when nothing is nearer than it by more: less than lips are thick.
+/// A point counts as visible unless something is nearer by more than this, which is less than the thickness of the lips.
 constexpr double kSamePlace_m = 1e-3;
 
 Part part_of(const Surface& surface, const Vec3& middle, const std::array<Eye, 2>& eyes,
@@ -36,13 +36,13 @@ Part part_of(const Surface& surface, const Vec3& middle, const std::array<Eye, 2
         case Material::kMouth:
             break;
     }
-    for (const Eye& eye : eyes)  // sockets are lined as the mouth is
+    for (const Eye& eye : eyes)  // eye sockets have the same material as the mouth
         if (eye.radius_m > 0 && (middle - eye.centre).norm() < 2 * eye.radius_m)
             return Part::kEyeCorner;
     return Part::kMouth;
 }
 
-/// On the ball of an eye at rest, by the distance from its axis.
+/// The part of an eyeball at a rest position, by the distance from the optical axis.
 Part ring_of_eye(const Vec3& rest, const Eye& eye, bool right) {
     const Vec3 from = rest - eye.centre;
     const double along = from.dot(eye.forward);
@@ -53,7 +53,7 @@ Part ring_of_eye(const Vec3& rest, const Eye& eye, bool right) {
     return right ? Part::kPupilRight : Part::kPupilLeft;
 }
 
-/// What is drawn but seen through.
+/// Surfaces that are drawn but count as transparent.
 bool is_clear(const Surface& surface) {
     return surface.material == Material::kCornea || surface.material == Material::kLashes;
 }
@@ -109,7 +109,7 @@ SeenSurface SurfacePasses::look(const Points& positions) const {
     SeenSurface seen{positions, std::vector<int>(pixels, -1), std::vector<float>(pixels, 0),
                      std::vector<float>(pixels, 0), std::vector<float>(pixels, 2)};
 
-    // Corners in the picture: x right and y down in pixels, depth, and 1 / w, which is linear there
+    // Per vertex: x to the right and y down in pixels, depth, and 1 / w. All are linear in the picture.
     Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> corner(positions.rows(), 4);
     for (Eigen::Index v = 0; v < positions.rows(); ++v) {
         const Eigen::Vector4d clip =
@@ -181,7 +181,7 @@ std::vector<std::uint16_t> SurfacePasses::parts(const SeenSurface& seen) const {
 }
 
 std::vector<float> SurfacePasses::depth(const SeenSurface& seen) const {
-    // The last row of a perspective camera is its axis, of an orthographic one (0 0 0 1)
+    // The last row of a perspective matrix is its axis, that of an orthographic one is (0 0 0 1).
     const Eigen::RowVector4d w = clip_from_world_.row(3), z = clip_from_world_.row(2);
     const double perspective = w.head<3>().norm();
     const bool orthographic = perspective < 1e-9;
@@ -202,7 +202,7 @@ std::vector<float> SurfacePasses::normals(const SeenSurface& seen) const {
                    b = seen.positions.row(triangles_(f, 1)),
                    c = seen.positions.row(triangles_(f, 2));
         for (int k = 0; k < 3; ++k)
-            smooth.row(triangles_(f, k)) += (b - a).cross(c - a).transpose();  // by area
+            smooth.row(triangles_(f, k)) += (b - a).cross(c - a).transpose();  // weighted by area
     }
     for (Eigen::Index v = 0; v < smooth.rows(); ++v)
         if (smooth.row(v).norm() > 0) smooth.row(v).normalize();
@@ -228,12 +228,12 @@ bool SurfacePasses::is_seen(const SeenSurface& seen, const Vec3& place, double a
     const std::size_t pixel =
         static_cast<std::size_t>(place.y()) * static_cast<std::size_t>(width_) +
         static_cast<std::size_t>(place.x());
-    // Lengths along the axis in depth of clip space: z / w changes by (z_row - z w_row) / w
+    // Converts metres along the axis to depth in clip space: z / w changes by (z_row - z w_row) / w.
     const double z = place.z(), z_slope = clip_from_world_.row(2).head<3>().norm(),
                  w_slope = clip_from_world_.row(3).head<3>().norm();
     double w = 1;
     if (w_slope > 0) {
-        // z = (A d + B) / d for the distance d along the axis, of which A is the limit far away
+        // Z = (A d + B) / d for the distance d along the axis; A is the limit at infinity.
         const Eigen::RowVector4d zr = clip_from_world_.row(2), wr = clip_from_world_.row(3);
         const double slope = zr.head<3>().dot(wr.head<3>()) / (w_slope * w_slope);
         w = (zr[3] - slope * wr[3]) / (z - slope);

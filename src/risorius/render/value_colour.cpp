@@ -11,12 +11,12 @@
 namespace risorius::render {
 namespace {
 
-// CIE L*C*h of a quantity without sign at 0 and 1
+// CIE L*C*h of an unsigned quantity at 0 and 1
 constexpr double kNoneLightness = 90, kMaxLightness = 20;
 constexpr double kNoneHue_deg = 95, kMaxHue_deg = -50;
-constexpr double kNoneChroma = 6, kMaxChroma = 46, kMoreChroma = 38;  ///< more: in the middle
+constexpr double kNoneChroma = 6, kMaxChroma = 46, kMoreChroma = 38;  ///< more: added in the middle
 
-// And of one with a sign at -1, 0 and 1
+// CIE L*C*h of a signed quantity at -1, 0 and 1
 constexpr double kBelowLightness = 16, kZeroLightness = 58, kAboveLightness = 92;
 constexpr double kBelowHue_deg = 275, kAboveHue_deg = 88;
 constexpr double kBelowChroma = 48, kAboveChroma = 68;

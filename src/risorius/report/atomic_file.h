@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A text file that appears whole or not at all. It is written at once under another name in the same folder; commit() gives it its
-/// own name.
+/// A text file that is written completely or not at all. The constructor writes it under another name in the same folder;
+/// commit() renames it.
 #pragma once
 
 #include <filesystem>
@@ -11,19 +11,20 @@ namespace risorius::report {
 
 class AtomicFile {
   public:
-    /// Throws RunError when it cannot be written. Missing folders are made.
+    /// Writes the temporary file, and makes missing folders. Throws RunError when it cannot be written.
     AtomicFile(const std::filesystem::path& file, const std::string& text);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
+    /// Gives the file its name. Without this call, the destructor removes the temporary file.
     void commit();
 
   private:
     std::filesystem::path file_, partial_;
 };
 
-/// Writes one file whole or not at all. Throws RunError.
+/// Writes a file completely or not at all. Throws RunError.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace risorius::report

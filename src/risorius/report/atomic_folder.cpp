@@ -42,7 +42,7 @@ void check_replaceable(const fs::path& folder, const std::string& shown) {
         if (!results.contains(file)) throw Error(shown, kExpected, "\"" + file + "\" in it");
 }
 
-/// The absolute path, without links, "." and a final slash.
+/// The absolute path without links, "." and final slash.
 fs::path canonical_folder(const fs::path& folder) {
     fs::path path = fs::weakly_canonical(fs::absolute(folder)).lexically_normal();
     if (!path.has_filename()) path = path.parent_path();
@@ -75,11 +75,11 @@ AtomicFolder::~AtomicFolder() {
     std::error_code ignored;
     fs::remove_all(partial_, ignored);
     for (auto parent = made_.rbegin(); parent != made_.rend(); ++parent)
-        fs::remove(*parent, ignored);  // fails, as it should, when the folder is not empty
+        fs::remove(*parent, ignored);  // fails for a folder that is not empty, as intended
 }
 
 void AtomicFolder::commit() {
-    // Checked again, since a run may take minutes.
+    // Checked again, because a run may take minutes.
     check_replaceable(folder_, folder_.string());
     fs::path former = partial_;
     former += ".former";

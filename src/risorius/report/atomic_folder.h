@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A folder of results that appears whole or not at all. It is filled under another name beside its place; commit() gives it its own
-/// name.
+/// A folder of results that is written completely or not at all. It is filled under another name next to its final place;
+/// commit() renames it.
 ///
-/// An earlier folder of results is replaced. It is recognised by its results.json, which lists its files: a folder with any other
-/// file is refused.
+/// An earlier folder of results is replaced. It is recognized by its results.json, which lists its files; a folder with any other
+/// file is rejected.
 #pragma once
 
 #include <filesystem>
@@ -15,25 +15,25 @@ namespace risorius::report {
 
 class AtomicFolder {
   public:
-    /// Throws Error when `folder` cannot be made, or exists and holds other files than results.
+    /// Throws Error when `folder` cannot be made, or when it exists and has files that are not results.
     explicit AtomicFolder(const std::filesystem::path& folder);
     ~AtomicFolder();
     AtomicFolder(const AtomicFolder&) = delete;
     AtomicFolder& operator=(const AtomicFolder&) = delete;
 
-    /// Where to write until commit().
+    /// Where to write before commit().
     const std::filesystem::path& partial() const { return partial_; }
 
-    /// Throws RunError when the folder cannot be renamed; the earlier folder then stays.
+    /// Throws RunError when the folder cannot be renamed; then the earlier folder stays.
     void commit();
 
   private:
     std::filesystem::path folder_, partial_;
-    std::vector<std::filesystem::path> made_;  ///< parents, outermost first
+    std::vector<std::filesystem::path> made_;  ///< parent folders that were made, outermost first
     bool committed_ = false;
 };
 
-/// The key of results.json that lists all files of the folder, itself included.
+/// The key of results.json that lists all files of the folder, including itself.
 inline constexpr const char* kFilesKey = "files";
 
 }  // namespace risorius::report

@@ -13,7 +13,7 @@ namespace risorius::report {
 
 namespace {
 
-// px
+// Lengths in px
 constexpr int kMargin = 24, kGap = 3, kBetweenBlocks = 30, kHeading = 26, kBelowRow = 10;
 constexpr int kTitle = 82, kColumnNames = 22, kScaleLength = 220, kScaleHeight = 12;
 constexpr render::TextStyle kTitleText{.height_px = 17}, kNameText{.height_px = 12},
@@ -101,7 +101,7 @@ Image draw_contact_sheet(const ContactSheet& sheet) {
 }
 
 Image shrunk(const Image& image, int width_px, int height_px) {
-    // The fraction of each row or column of the large picture that a pixel of the small one covers
+    // The fraction of each source row or column that a pixel of the small picture covers
     struct Span {
         int first;
         std::vector<double> fraction;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Many small pictures on one sheet. Each row of pictures has a heading; rows are set in several columns, so that the sheet is about
-/// as wide as high.
+/// Many small pictures on one sheet. Each row of pictures has a heading. Rows are arranged in several blocks side by side, so
+/// that the sheet is about as wide as high.
 #pragma once
 
 #include <string>
@@ -12,19 +12,22 @@
 
 namespace risorius::report {
 
+/// A row of pictures.
 struct ContactRow {
-    std::string name, numbers;    ///< the heading: a name, and text about the row
-    std::vector<Image> pictures;  ///< all of one size on a sheet; as many as the sheet has columns
+    std::string name, numbers;    ///< the heading: a name, and further text
+    std::vector<Image> pictures;  ///< all pictures of a sheet have the same size; one per column
 };
 
+/// The content of a sheet.
 struct ContactSheet {
     std::string title;
     std::vector<std::string> columns;  ///< headings of the columns, from the left
     std::vector<ContactRow> rows;
-    /// The colour scale of the pictures; only its ends and name are used. Without a name none is drawn.
+    /// The colour scale of the pictures; only its ends and name are used. It is not drawn if the name is empty.
     render::SkinValues scale;
 };
 
+/// Draws the sheet.
 Image draw_contact_sheet(const ContactSheet& sheet);
 
 /// A smaller copy of a picture: each pixel is the mean of the area that it covers.

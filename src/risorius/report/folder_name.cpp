@@ -10,7 +10,7 @@ std::string folder_name(const std::string& name, std::set<std::string>& taken) {
                            (c >= '0' && c <= '9') || c == '_' || c == '-';
         out += plain ? c : '_';
     }
-    // Some file systems ignore case
+    // Some file systems ignore case.
     const auto lower = [](std::string text) {
         for (char& c : text)
             if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Makes names that come from files usable as names of files and folders on any system.
+/// Converts names from files to names that are valid for files and folders on any system.
 #pragma once
 
 #include <set>
@@ -8,7 +8,8 @@
 
 namespace risorius::report {
 
-/// A name of letters, digits, "_" and "-" only. It differs from all of `taken`, also without regard to case, and is added to them.
+/// Returns a name of letters, digits, "_" and "-" only. It differs from all of `taken`, also without regard to case, and is added
+/// to `taken`.
 std::string folder_name(const std::string& name, std::set<std::string>& taken);
 
 }  // namespace risorius::report

@@ -92,7 +92,7 @@ HtmlWriter& HtmlWriter::open(const std::string& name, const Attributes& attribut
 HtmlWriter& HtmlWriter::close() {
     assert(!open_.empty());
     html_ += "</" + open_.back() + ">";
-    // Line breaks are put where they do not show.
+    // Line breaks are written only where they do not show.
     if (!is_inline(open_.back())) html_ += "\n";
     open_.pop_back();
     return *this;

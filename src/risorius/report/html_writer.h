@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Writes HTML element by element, so that every element is closed and text is escaped. html_page() puts a page around it, with the
-/// style of this toolkit and without scripts or network resources.
+/// Writes HTML element by element, so that every element is closed and text is escaped. html_page() adds the frame of a page,
+/// with the style of this toolkit and without scripts or network resources.
 #pragma once
 
 #include <string>
@@ -20,13 +20,13 @@ class HtmlWriter {
     HtmlWriter& open(const std::string& tag, const Attributes& attributes = {});
     HtmlWriter& close();  ///< closes the element that was opened last
     HtmlWriter& text(const std::string& text);
-    /// An element without content: img, br.
+    /// Writes an element without content, such as img or br.
     HtmlWriter& single(const std::string& tag, const Attributes& attributes = {});
     /// open(), text() and close() in one.
     HtmlWriter& element(const std::string& tag, const std::string& text,
                         const Attributes& attributes = {});
 
-    /// All that was written. Every element must be closed.
+    /// Everything that was written. All elements must be closed.
     const std::string& html() const;
 
   private:
@@ -36,7 +36,7 @@ class HtmlWriter {
     std::vector<std::string> open_;
 };
 
-/// A whole document.
+/// A complete document.
 std::string html_page(const std::string& title, const HtmlWriter& body);
 
 }  // namespace risorius::report

@@ -16,7 +16,7 @@ std::string trimmed(const std::string& line) {
 
 void write_inline(HtmlWriter& html, const std::string& text);
 
-/// Writes a link [text](target) that begins at `at` and moves `at` behind it; false when there is none.
+/// Writes a link [text](target) that starts at `at`, and moves `at` behind it; false if there is none.
 bool write_link(HtmlWriter& html, const std::string& text, std::size_t& at) {
     const std::size_t middle = text.find("](", at);
     const std::size_t end = middle == std::string::npos ? middle : text.find(')', middle);
@@ -31,7 +31,7 @@ bool write_link(HtmlWriter& html, const std::string& text, std::size_t& at) {
     return true;
 }
 
-/// Writes text between two equal marks that begins at `at`; false when there is none.
+/// Writes text between two equal marks that starts at `at`; false if there is none.
 bool write_marked(HtmlWriter& html, const std::string& text, std::size_t& at,
                   const std::string& mark, const std::string& tag) {
     if (text.compare(at, mark.size(), mark) != 0) return false;
@@ -136,7 +136,7 @@ class Blocks {
         return static_cast<int>(depth);
     }
 
-    /// The length of "- ", "* " or "1. " at the beginning of a line, or 0.
+    /// The length of "- ", "* " or "1. " at the start of a line, or 0.
     static std::size_t item_mark(const std::string& line) {
         if (line.starts_with("- ") || line.starts_with("* ")) return 2;
         const std::size_t dot = line.find_first_not_of("0123456789");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Converts the part of Markdown that the README files of this project use to HTML: headings, paragraphs, lists, tables, code,
-/// **strong**, *emphasis*, `code` and [links](https://...). Anything else stays text.
+/// Converts the subset of Markdown that the README files of this project use to HTML: headings, paragraphs, lists, tables, code,
+/// **strong**, *emphasis*, `code` and [links](https://...). Everything else is written as text.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace risorius::report {
 
-/// Headings of level 1 become level `first_heading` (1..6), others follow. Links to files become their text, as the files are not
-/// beside the page.
+/// Headings of level 1 become level `first_heading` (1..6), and deeper ones follow. Links to files become plain text, because the
+/// files are not next to the page.
 void write_markdown(HtmlWriter& html, const std::string& markdown, int first_heading);
 
 }  // namespace risorius::report

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Runs another program and waits for its end.
+/// Runs another program and waits until it ends.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct ProgramResult {
     std::string output;  ///< standard output and error
 };
 
-/// `command[0]` is searched for in PATH. No shell is used. Throws RunError when the system cannot start a process.
+/// Runs a command without a shell; `command[0]` is searched for in PATH. Throws RunError when the system cannot start a process.
 ProgramResult run_program(const std::vector<std::string>& command);
 
 }  // namespace risorius::report

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Stopwatches for wall time and processor time since they were made. They are for reports only: no result depends on them.
+/// Stopwatches of wall time and CPU time since their construction. They are for reports only: no result depends on them.
 #pragma once
 
 #include <time.h>
@@ -19,7 +19,7 @@ class Stopwatch {
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// Processor time of this thread, or of all threads of this process.
+/// CPU time of this thread, or of all threads of this process.
 template <clockid_t kClock>
 class ClockStopwatch {
   public:

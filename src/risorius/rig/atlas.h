@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The standard anatomy from which every head is rigged, in the frame and size of one average adult head: 109 landmarks, soft-tissue
-/// thickness, attachment stiffness, and the muscles of expression as bands given relative to landmarks.
+/// The standard anatomy that every rig starts from, in the frame and size of one average adult head: 109 landmarks, thickness of
+/// soft tissue, stiffness of attachments, and the muscles of expression as bands between landmarks.
 ///
 /// Frame: origin midway between the tragia, x to the subject's left, y up, z forward, Frankfurt horizontal. m, N, Pa/m.
-/// Sources: rigs/standard/*.json, each with its own.
+/// Sources: see the files rigs/standard/*.json.
 #pragma once
 
 #include <map>
@@ -17,6 +17,7 @@
 
 namespace risorius::rig {
 
+/// A landmark on the atlas head.
 struct AtlasLandmark {
     std::string id;
     std::string name;
@@ -32,30 +33,33 @@ struct ThicknessSample {
     double thickness_m;  ///< skin to bone
 };
 
+/// A sample of the stiffness with which tissue is attached to bone, at a landmark.
 struct AttachmentSample {
     std::string landmark;
     double normal_pa_per_m;      ///< resistance to being lifted off the bone, per area
     double tangential_pa_per_m;  ///< resistance to sliding, per area
 };
 
+/// The body that the end of a muscle band moves with.
 enum class Body { kSkull, kMandible, kSoft, kNeck };
 
+/// A point of a muscle band.
 struct BandPoint {
     std::string landmark;
     Vec3 offset;  ///< m, at atlas size
-    double depth =
-        0.5;  ///< depth / tissue thickness; 1 is the bone; < 0: the point lies on the mucosa and is used as given
+    /// Depth below the skin over tissue thickness: 0 skin, 1 bone. Negative: the point lies on the mucosa and is used as given.
+    double depth = 0.5;
 };
 
-/// A sheet of parallel fibres along a path, left side; a band that names right landmarks crosses the midline.
+/// A sheet of parallel fibres along a path on the left side. A band that names landmarks of the right side crosses the midline.
 struct MuscleBand {
     std::string muscle;
     double width_m;
-    double force_n;  ///< isometric force of this side, shared by the muscle's bands
-    double strength =
-        1.0;  ///< calibration factor of the force, so that activation 1 shortens the band to `shortens_to`
-    double shortens_to =
-        0.72;  ///< mean fibre length / rest length when this muscle alone has activation 1
+    double force_n;  ///< isometric force of this side; the bands of a muscle share it
+    /// Calibration factor of the force: with it, activation 1 shortens the band to `shortens_to`
+    double strength = 1.0;
+    /// Mean fibre length over rest length when only this muscle is active, with activation 1
+    double shortens_to = 0.72;
     std::vector<BandPoint> points;
     Body origin = Body::kSkull;
     Body insertion = Body::kSoft;
@@ -63,6 +67,7 @@ struct MuscleBand {
     bool crosses_midline() const;
 };
 
+/// All tables of the standard anatomy.
 struct Atlas {
     std::vector<AtlasLandmark> landmarks;
     std::vector<ThicknessSample> thickness;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Names of the measured expressions that the anatomy was calibrated on. Results on these expressions are no independent test.
+/// Names of the measured expressions on which the anatomy was calibrated. Results on these expressions are not an independent
+/// test.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +12,14 @@
 
 namespace risorius::rig {
 
-inline constexpr const char* kCalibrationFile = "calibration.json";  ///< of the standard anatomy
+/// A file of the standard anatomy
+inline constexpr const char* kCalibrationFile = "calibration.json";
 
-/// Calibration files: {"format": "risorius-calibration", "version": 1, "source": "...", "expressions": [names]}. A list of names, or
-/// the path of such a file, may stand in its place.
+/// Reads a calibration file: {"format": "risorius-calibration", "version": 1, "source": "...", "expressions": [names]}. A list of
+/// names, or the path of such a file, may be given instead.
 std::vector<std::string> read_calibration(const JsonCursor& json);
 
-/// The names that a rig file gives; empty when it gives none. Throws Error.
+/// The names that a rig file gives; empty if it gives none. Throws Error.
 std::vector<std::string> calibrated_on(const std::filesystem::path& rig_file);
 
 }  // namespace risorius::rig

@@ -14,23 +14,24 @@ namespace risorius::rig {
 
 namespace {
 
-constexpr double kDegenerate = 0.12;  // of an edge: a cut this close to a vertex runs through it
-constexpr double kFromLine_m =
-    9e-3;  // of the landmarks' line, at atlas size: how far the cut may lie
-constexpr double kBehind_m = 5e-3;  // what is this far behind the lips is inside of the mouth
+// Fraction of an edge: a cut this close to a vertex passes through the vertex
+constexpr double kDegenerate = 0.12;
+// Largest distance of the cut from the line of the landmarks, at atlas size
+constexpr double kFromLine_m = 9e-3;
+constexpr double kBehind_m = 5e-3;  // points this far behind the lips are inside the mouth
 constexpr double kPi = 3.14159265358979323846;
 
-/// A polygon on its way through the cut.
+/// A polygon of the mesh during the cut.
 struct Polygon {
     std::vector<int> vertex;
-    std::vector<Vec2> texcoord;  ///< none when the mesh has none
+    std::vector<Vec2> texcoord;  ///< empty when the mesh has no texture coordinates
     int group;
 };
 
 using Edge = std::pair<int, int>;
 Edge edge_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// The mesh taken apart, cut and put together again.
+/// Takes the mesh apart, cuts it and puts it together again.
 class Cut {
   public:
     Cut(const geom::PolygonMesh& mesh, const Head& head, const std::vector<int>& groups)
@@ -50,14 +51,14 @@ class Cut {
             is_skin_.push_back(skin && near_lips(polygon));
             polygons_.push_back(std::move(polygon));
         }
-        // Seams of the file are no cuts: the vertices of both sides are one here
+        // Vertices on both sides of a texture seam of the file are treated as one.
         for (Polygon& polygon : polygons_)
             for (int& v : polygon.vertex)
                 if (head.carrier[static_cast<std::size_t>(v)] == Carrier::kSkin)
                     v = head.welded[static_cast<std::size_t>(v)];
     }
 
-    /// Splits every polygon the line runs through.
+    /// Splits every polygon that the line crosses.
     void split() {
         mark_vertices_on_line();
         std::vector<Polygon> out;
@@ -74,7 +75,7 @@ class Cut {
         polygons_ = std::move(out);
     }
 
-    /// The cut from the right corner to the left; empty when it is no single way.
+    /// The vertices of the cut from the right to the left corner; empty when they do not form a single path.
     std::vector<int> path() const {
         std::map<int, std::set<int>> next;
         for (const Polygon& polygon : polygons_)
@@ -94,7 +95,7 @@ class Cut {
         };
         const int start = nearest_to(head_.landmark("ch_r"));
         const int goal = nearest_to(head_.landmark("ch_l"));
-        // Shortest way, as a vertex beside the line may count as on it
+        // The shortest path, because vertices beside the line may also count as on it.
         std::map<int, std::pair<double, int>> way{{start, {0.0, -1}}};
         std::set<std::pair<double, int>> open{{0.0, start}};
         while (!open.empty()) {
@@ -116,7 +117,7 @@ class Cut {
         return out;
     }
 
-    /// Gives the lower lip its own vertices along the path; returns them, without the corners.
+    /// Duplicates the vertices along the path for the lower lip; returns the new ones, without the corners.
     std::vector<int> part(const std::vector<int>& path) {
         std::map<int, int> below;
         std::vector<int> out;
@@ -125,10 +126,11 @@ class Cut {
             out.push_back(static_cast<int>(position_.size()));
             position_.push_back(position_[static_cast<std::size_t>(path[i])]);
         }
-        // The skin is wound as seen from outside, so below the path it runs against it; from there on through shared sides
+        // The skin is wound counter-clockwise from outside, so polygons below the path run against it. Further polygons are found
+        // across shared edges.
         std::set<Edge> cut;
         for (std::size_t i = 0; i + 1 < path.size(); ++i) cut.insert({path[i + 1], path[i]});
-        std::map<Edge, std::size_t> beside;  // directed sides of the polygons that touch the path
+        std::map<Edge, std::size_t> beside;  // directed edges of the polygons at the path
         std::vector<std::size_t> open;
         for (std::size_t f = 0; f < polygons_.size(); ++f) {
             const std::vector<int>& vertex = polygons_[f].vertex;
@@ -161,12 +163,12 @@ class Cut {
         return out;
     }
 
-    /// A pocket from the cut backwards: narrow between the lips, wide behind, closed at its end.
+    /// Adds a pocket behind the cut: narrow between the lips, wide behind them, closed at its end.
     void add_lining(const std::vector<int>& path, const std::vector<int>& lower, int group) {
         struct Row {
             double back_mm, gap_mm;
         };
-        // Lips, vestibule, oral cavity; the last row is the back wall
+        // Lips, vestibule, oral cavity; the last row is the back wall.
         static const std::array<Row, 6> kRows{
             {{3, 0.15}, {7, 0.8}, {11, 4}, {17, 8}, {26, 9}, {34, 0}}};
         const std::size_t n = path.size() - 2;
@@ -185,7 +187,7 @@ class Cut {
                 below[r + 1].push_back(r + 1 < kRows.size() ? add(back - gap)
                                                             : above[r + 1].back());
             }
-        // Wound against the skin at the edges they share
+        // Wound opposite to the skin along shared edges.
         for (std::size_t r = 0; r < kRows.size(); ++r)
             for (std::size_t i = 0; i <= n; ++i) {
                 const auto at = [&](const std::vector<int>& row, std::size_t k) {
@@ -247,7 +249,7 @@ class Cut {
     }
     bool may_be_cut(const Vec3& p) const {
         const Vec3 off = p - line_.at(p.x());
-        // A furrow may be deep, down to the teeth
+        // The furrow between the lips may be deep, down to the teeth, so depth counts less than height.
         return line_.spans(p.x()) && std::hypot(off.y(), 0.25 * off.z()) < head_.size * kFromLine_m;
     }
     double fraction_of_edge(int a, int b) const {
@@ -268,7 +270,7 @@ class Cut {
         }
     }
 
-    /// Sides, and the diagonals that cut it into a fan.
+    /// The edges of a polygon, and the diagonals of its triangle fan.
     static std::vector<Edge> edges_of(const std::vector<int>& vertex) {
         std::vector<Edge> out;
         for (std::size_t k = 0; k < vertex.size(); ++k)
@@ -277,7 +279,7 @@ class Cut {
         return out;
     }
 
-    /// The vertex of the cut on an edge, -1 when it is not crossed.
+    /// The vertex of the cut on an edge; -1 if the edge is not crossed.
     int crossing(int a, int b) {
         if (on_line_.count(a) || on_line_.count(b)) return -1;
         if (height_of(a) * height_of(b) >= 0) return -1;
@@ -295,7 +297,7 @@ class Cut {
         bool crossed = false;
         for (const auto& [a, b] : edges_of(polygon.vertex))
             crossed = crossing(a, b) >= 0 || crossed;
-        // Between two opposite vertices on the line runs a diagonal
+        // A diagonal connects two opposite vertices on the line.
         int on_line = 0;
         for (int v : polygon.vertex) on_line += on_line_.count(v) > 0;
         return crossed || (on_line > 1 && polygon.vertex.size() > 3);
@@ -328,7 +330,7 @@ class Cut {
                 face(mid[k], q, r);
                 return;
             }
-            // Two sides that meet in q
+            // Two edges that meet in q
             const Corner &first = mid[k], &second = mid[(k + 1) % 3];
             if (first.vertex < 0 || second.vertex < 0) continue;
             face(first, q, second);
@@ -342,7 +344,7 @@ class Cut {
         position_.push_back(p);
         return static_cast<int>(position_.size()) - 1;
     }
-    /// A quad, or what is left of it where corners coincide.
+    /// Adds a quad, or a triangle where corners coincide.
     void add_face(const std::vector<int>& vertex, int group) {
         std::vector<int> own;
         for (int v : vertex)
@@ -357,7 +359,7 @@ class Cut {
     int laid_back_ = 0;
     std::vector<Vec3> position_;
     std::vector<Polygon> polygons_;
-    std::vector<char> is_skin_;  ///< polygons the cut may run through
+    std::vector<char> is_skin_;  ///< polygons that may be cut
     std::set<int> on_line_;
     std::map<Edge, int> crossing_;
 };

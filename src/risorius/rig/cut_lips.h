@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Cuts apart lips that have grown together in a scan, along the line between them, and adds a lining of the mouth behind the cut.
+/// Separates the lips of a scan that has no gap between them: cuts along the line between the lips, and adds a mouth lining
+/// behind the cut.
 ///
-/// The cut follows the deepest line between the lips from corner to corner and passes through triangles where it has to. Vertices of the
-/// mesh keep their number. They keep their place too, except for spikes into the mouth. New vertices follow after the old ones.
+/// The cut follows the deepest line between the lips from corner to corner and splits triangles where necessary. The vertices of
+/// the mesh keep their numbers, and their positions except for spikes into the mouth. New vertices are appended.
 #pragma once
 
 #include <vector>
@@ -16,19 +17,22 @@ namespace risorius::rig {
 /// Whether the skin continues from the upper to the lower lip without a gap.
 bool lips_are_closed(const Head& head);
 
+/// The result of the cut.
 struct CutLips {
-    geom::PolygonMesh mesh;  ///< in units of the one given; the lining is group `lining_group`
-    std::vector<int>
-        upper;  ///< vertices of the upper lip along the cut, right to left, without the corners
-    std::vector<int> lower;  ///< their counterparts, at the same places
-    int laid_back =
-        0;  ///< number of points that the scanner saw between the lips and that were moved back, see scan_spikes.h
-    int middle = 0;          ///< index, in `upper`, of the vertex nearest to the landmark stomion
-    std::vector<Vec3> seam;  ///< corner to corner, head frame, m
+    /// In the units of the given mesh; the lining is the group kLiningGroup
+    geom::PolygonMesh mesh;
+    /// Vertices of the upper lip along the cut, from right to left, without the corners
+    std::vector<int> upper;
+    std::vector<int> lower;  ///< the corresponding vertices of the lower lip, at the same positions
+    /// Number of scanned points deep between the lips that were moved back, see scan_spikes.h
+    int laid_back = 0;
+    int middle = 0;          ///< index in `upper` of the vertex nearest to the landmark stomion
+    std::vector<Vec3> seam;  ///< the cut from corner to corner, head frame, m
 };
 inline constexpr const char* kLiningGroup = "mouth_lining";
 
-/// `skin_groups` are group indices. Throws Error that names `place` when no line between the corners is found.
+/// Cuts the lips of a mesh. `skin_groups`: indices of groups. Throws Error naming `place` when no line between the corners is
+/// found.
 CutLips cut_lips(const geom::PolygonMesh& mesh, const Head& head,
                  const std::vector<int>& skin_groups, const std::string& place);
 

@@ -10,7 +10,7 @@ namespace risorius::rig {
 
 namespace {
 
-// Of what has sides that side, of the rest half.
+// Keeps values with a side only on that side, and half of the others.
 track::Expansion one_side(track::Expansion whole, Side side, const track::ChannelTable& channels) {
     for (const track::MuscleChannel& muscle : channels.muscles) {
         const int left = channels.column(muscle.id, Side::kLeft),

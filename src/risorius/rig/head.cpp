@@ -36,7 +36,8 @@ std::vector<std::string> roles_of_groups(const RigDescription& rig, const geom::
     return out;
 }
 
-// Seams of regions and of texture charts are no edges of the skin. Lips that touch stay apart (see geom/weld.h).
+// Welds the seams of regions and of texture charts, which are not edges of the skin. Lips that touch stay separate (see
+// geom/weld.h).
 std::vector<int> weld_seams(const Points& vertices, const Triangles& surface) {
     const geom::WeldedSurface welded = geom::weld(vertices, surface);
     std::vector<int> out(static_cast<std::size_t>(vertices.rows()));
@@ -61,7 +62,7 @@ Triangles apply_weld(Triangles triangles, const std::vector<int>& welded) {
     return out;
 }
 
-// Sphere through points in the least-squares sense, then again without what lies outside it (the cornea).
+// Fits a sphere by least squares, then again without the points outside it (the cornea).
 void fit_eye(const Points& vertices, const std::vector<int>& members, EyeGeometry& eye) {
     std::vector<int> used = members;
     for (int pass = 0; pass < 3; ++pass) {
@@ -87,7 +88,7 @@ void measure_profile(const Points& vertices, const std::vector<int>& members, Ey
         const double angle = std::atan2(r.cross(eye.forward).norm(), r.dot(eye.forward)) / kDegree;
         const int bin = static_cast<int>(angle);
         if (bin > 90) continue;
-        // A coarse eye has few vertices per degree: let each speak for its neighbourhood.
+        // A coarse eye has few vertices per degree, so each also fills the neighbouring bins.
         for (int b = std::max(0, bin - 3); b <= std::min(90, bin + 3); ++b)
             eye.profile_m[b] = std::max(eye.profile_m[b], r.norm());
     }
@@ -101,7 +102,7 @@ void measure_profile(const Points& vertices, const std::vector<int>& members, Ey
     eye.profile_m = smooth;
 }
 
-// Connected pieces of the faces in the listed groups, as vertex lists.
+// The connected components of the faces in the listed groups, as lists of vertices.
 std::vector<std::vector<int>> pieces_of(const geom::PolygonMesh& mesh,
                                         const std::vector<int>& groups) {
     std::vector<int> parent(static_cast<std::size_t>(mesh.vertex_count()), -1);
@@ -127,7 +128,7 @@ std::vector<std::vector<int>> pieces_of(const geom::PolygonMesh& mesh,
     return out;
 }
 
-// Whether a piece reaches well above and below the bite.
+// Whether a component reaches well above and below the bite.
 bool spans_both_jaws(const Head& head, const std::vector<int>& piece) {
     double lowest = 1e9, highest = -1e9;
     for (int v : piece) {
@@ -138,8 +139,8 @@ bool spans_both_jaws(const Head& head, const std::vector<int>& piece) {
     return highest > bite + head.mm(8) && lowest < bite - head.mm(12);
 }
 
-// Gums and tongue modelled in one piece with both jaws: what lies on the upper teeth and the palate stays, what lies on the
-// lower teeth and the tongue goes with the mandible, and the piece stretches in between (harmonic over its edges).
+// Gums and tongue in one component with both jaws: vertices on the upper teeth and the palate stay with the skull, those on the
+// lower teeth and the tongue move with the mandible, and a harmonic function over the edges interpolates in between.
 void split_between_jaws(const geom::PolygonMesh& mesh, int group, const std::vector<int>& piece,
                         const std::vector<int>& upper_teeth, const std::vector<int>& lower_teeth,
                         Head& head) {
@@ -263,7 +264,7 @@ void check_left_and_right(const std::map<std::string, Vec3>& in_mesh, const Head
     }
 }
 
-// Surfaces that follow the tissue: the skin and the linings of mouth and eye sockets.
+// Welds the surfaces that move with the tissue: the skin and the linings of mouth and eye sockets.
 void weld_surfaces(const geom::PolygonMesh& mesh, const std::string& place, Head& head) {
     std::vector<int> skin_groups, lining_groups;
     for (std::size_t g = 0; g < head.role_of_group.size(); ++g) {
@@ -283,7 +284,7 @@ void weld_surfaces(const geom::PolygonMesh& mesh, const std::string& place, Head
     head.lining = apply_weld(lining, head.welded);
 }
 
-// All landmarks of the atlas: those given, and the others warped from the atlas.
+// Sets all landmarks of the atlas: the given ones, and the others by warping the atlas.
 void place_landmarks(const RigDescription& rig, const std::map<std::string, Vec3>& in_mesh,
                      Head& head) {
     std::map<std::string, Vec3> in_head;
@@ -296,7 +297,7 @@ void place_landmarks(const RigDescription& rig, const std::map<std::string, Vec3
         if (!in_head.count(landmark.id)) head.warped_landmarks.push_back(landmark.id);
 }
 
-// The tongue is the piece that reaches the midline and fills it; gums are arches, hollow in the middle.
+// The tongue is the component that fills the midline; gums are arches, which are hollow in the middle.
 Carrier carrier_of_gums_or_tongue(const Head& head, const std::vector<int>& piece,
                                   double occlusal_y) {
     double near_middle = 0, lowest = 1e9, highest = -1e9;
@@ -316,7 +317,7 @@ Carrier carrier_of(const Head& head, const std::string& role, const std::vector<
     if (any_of(role, {"teeth_upper", "gums_upper"})) return Carrier::kSkull;
     if (any_of(role, {"teeth_lower", "gums_lower"})) return Carrier::kMandible;
     if (any_of(role, {"teeth", "gums"})) {
-        // Upper and lower pieces of one group part at the occlusal plane.
+        // The occlusal plane separates the upper and lower components of a group.
         double mean_y = 0;
         for (int v : piece) mean_y += head.vertices(v, 1) / static_cast<double>(piece.size());
         return mean_y > occlusal_y ? Carrier::kSkull : Carrier::kMandible;
@@ -329,7 +330,7 @@ Carrier carrier_of(const Head& head, const std::string& role, const std::vector<
     return Carrier::kNone;
 }
 
-/// Mesh vertices of what is measured after the carriers are known.
+/// Vertices of parts that are measured after the carriers are known.
 struct CarriedVertices {
     std::array<std::vector<int>, 2> eyes;  ///< left, right
     std::vector<int> upper_teeth, lower_teeth;
@@ -339,7 +340,7 @@ void append(std::vector<int>& to, const std::vector<int>& piece) {
     to.insert(to.end(), piece.begin(), piece.end());
 }
 
-// Decides who carries each vertex, piece by piece.
+// Chooses the carrier of each vertex, component by component.
 CarriedVertices choose_carriers(const geom::PolygonMesh& mesh, Head& head) {
     CarriedVertices carried;
     std::vector<std::pair<int, std::vector<int>>> both_jaws;
@@ -371,7 +372,7 @@ CarriedVertices choose_carriers(const geom::PolygonMesh& mesh, Head& head) {
     return carried;
 }
 
-// A head without eyes gets guessed ones behind its lids.
+// For a head without eyes, estimates eyes behind its lids.
 void measure_eyes(const std::array<std::vector<int>, 2>& members, Head& head) {
     for (int side = 0; side < 2; ++side) {
         EyeGeometry& eye = head.eyes[side];
@@ -407,7 +408,7 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh,
     Head head;
     head.role_of_group = roles_of_groups(rig, mesh, place);
 
-    // Where the head lies and how large it is
+    // Position and size of the head.
     const std::map<std::string, Vec3> in_mesh = landmarks_in_mesh(rig, mesh, place);
     head.frame = find_head_frame(in_mesh, rig.atlas, rig.metres_per_unit);
     head.size = head.frame.size;
@@ -415,7 +416,7 @@ Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh,
     check_left_and_right(in_mesh, head.frame, place);
     head.vertices = head.frame.to_head(mesh.positions);
 
-    // What moves with the tissue, what with skull, mandible and eyes
+    // Which vertices move with tissue, skull, mandible and eyes.
     weld_surfaces(mesh, place, head);
     place_landmarks(rig, in_mesh, head);
     const CarriedVertices carried = choose_carriers(mesh, head);

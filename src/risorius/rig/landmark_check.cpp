@@ -11,11 +11,13 @@ namespace risorius::rig {
 
 namespace {
 
-constexpr double kScatter_m = 4e-4;  // s: 2 mm at 10 mm from the neighbours
-constexpr double kNoise_m = 1e-3;    // d of a landmark on top of another, by how well one is placed
-constexpr double kAsymmetry_m = 3e-3;  // of a landmark against the mirror image of its partner
+constexpr double kScatter_m = 4e-4;  // s: 2 mm at a distance of 10 mm from the neighbours
+// D of a landmark that coincides with another: the precision of placing a landmark
+constexpr double kNoise_m = 1e-3;
+// Usual distance of a landmark from the mirror image of its partner
+constexpr double kAsymmetry_m = 3e-3;
 
-// Where most pairs have their middle, x.
+// X of the middle of most pairs.
 double middle_plane(const std::map<std::string, Vec3>& in_head) {
     std::vector<double> middles;
     for (const auto& [id, left] : in_head) {
@@ -57,13 +59,13 @@ std::vector<LandmarkPrediction> predict_each(const std::map<std::string, Vec3>& 
         LandmarkPrediction p;
         p.id = ids[static_cast<std::size_t>(i)];
         p.found = to.row(i).transpose();
-        // A landmark without which the others lie in a plane, or close to it, cannot be told
+        // A landmark cannot be judged when the others alone lie in a plane, or nearly so.
         const double open = 1.0 / std::max(inverse(i, i), 1.0);
         Vec3 precision = Vec3::Constant(1.0 / (kScatter_m * size * open));
         Vec3 sum = precision.cwiseProduct(p.found - open * weights.row(i).transpose());
         const auto partner = in_head.find(mirrored_landmark(p.id));
         if (partner != in_head.end()) {
-            // One on the midline is its own partner, which says nothing of its height and depth
+            // A landmark on the midline is its own partner, which gives no information on height and depth.
             const bool midline = partner->first == p.id;
             const Vec3 by_mirror =
                 std::pow(kAsymmetry_m * size, -2) * (midline ? Vec3(Vec3::UnitX()) : Vec3::Ones());
@@ -84,14 +86,14 @@ std::vector<LandmarkPrediction> predict_each(const std::map<std::string, Vec3>& 
 std::vector<LandmarkPrediction> doubtful_landmarks(std::map<std::string, Vec3> in_head,
                                                    const Atlas& atlas, double size,
                                                    const LandmarkLimits& limits) {
-    constexpr std::size_t kFewest = 12;  // fewer say nothing about one of them
+    constexpr std::size_t kFewest = 12;  // with fewer landmarks a single one cannot be judged
     std::vector<std::string> aside;
     std::map<std::string, Vec3> rest = in_head;
     while (rest.size() > kFewest) {
         const std::vector<LandmarkPrediction> all = predict_each(rest, atlas, size);
         auto worst = std::max_element(
             all.begin(), all.end(), [](const auto& a, const auto& b) { return a.ratio < b.ratio; });
-        // Of two close neighbours each finds the other wrong: their partners know which it is
+        // Two close neighbours make each other suspect. Their partners tell which of them is wrong.
         constexpr double kAlike = 0.6;
         const double min = kAlike * worst->ratio;
         for (auto p = all.begin(); p != all.end(); ++p)
@@ -102,7 +104,7 @@ std::vector<LandmarkPrediction> doubtful_landmarks(std::map<std::string, Vec3> i
         aside.push_back(worst->id);
         rest.erase(worst->id);
     }
-    // What each looks like to those that are trusted
+    // Predictions of the removed landmarks from the trusted ones.
     std::vector<LandmarkPrediction> out;
     for (const std::string& id : aside) {
         std::map<std::string, Vec3> with = rest;
@@ -116,14 +118,14 @@ std::vector<LandmarkPrediction> doubtful_landmarks(std::map<std::string, Vec3> i
 
 std::vector<std::string> exchanged_pairs(const std::map<std::string, Vec3>& landmarks,
                                          const Atlas& atlas) {
-    // Which way is left: the sum of all pairs' directions, each as long as on the atlas
+    // The left direction: the sum of the directions of all pairs, each as long as on the atlas.
     std::vector<std::pair<std::string, Vec3>> across;
     for (const auto& [id, left] : landmarks) {
         const auto right = landmarks.find(mirrored_landmark(id));
         if (!id.ends_with("_l") || right == landmarks.end() || !atlas.landmark(id)) continue;
         across.push_back({id, left - right->second});
     }
-    // By the frame that fits the midline and the middles of all pairs, which an exchange leaves alone
+    // The frame is fitted to the midline and the middles of all pairs, which do not change when a pair is exchanged.
     std::map<std::string, Vec3> sides = landmarks, swapped = landmarks;
     std::vector<std::string> out;
     for (int round = 0; round < 4; ++round) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Thin-plate-spline warp of space through landmark pairs (Bookstein 1989), kernel |r| in three dimensions.
+/// Thin-plate-spline warp of space that maps landmarks to landmarks (Bookstein 1989), with the kernel |r| of three dimensions.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,8 @@ namespace risorius::rig {
 
 class LandmarkWarp {
   public:
-    /// Maps `from` onto `to` (same rows). With `smoothing` > 0, m, the map is approximate and close pairs may disagree.
+    /// Maps `from` to `to` (row by row). With `smoothing` > 0, m, the map is approximate, so that close pairs may contradict each
+    /// other.
     LandmarkWarp(const Points& from, const Points& to, double smoothing = 1e-4);
     Vec3 operator()(const Vec3& p) const;
 

@@ -55,7 +55,7 @@ PathPoint read_path_point(const JsonCursor& json) {
         point.landmarks.emplace_back(ids[i].string(), weights[i].number({-10, 10}));
         sum += point.landmarks.back().second;
     }
-    // Printed with three digits; the rest goes to all alike
+    // The table has three digits; the remainder is distributed evenly.
     if (std::abs(sum - 1) > 0.01) retarget.at("w").fail("weights that add up to 1");
     for (auto& [id, weight] : point.landmarks) weight /= sum;
     return point;
@@ -68,7 +68,7 @@ MusclePath read_path(const JsonCursor& json) {
     return path;
 }
 
-// Bundles of mimetic muscles need none of this; what moves the jaw does.
+// Bundles of mimetic muscles do not need these values; muscles of the jaw do.
 void read_line(const JsonCursor& item, Muscle& muscle) {
     const bool moves_bone = muscle.group == "jaw" || muscle.group == "hyoid";
     const auto take = [&](std::string_view key, double unit, Range range, double& value) {

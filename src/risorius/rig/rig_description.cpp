@@ -14,7 +14,7 @@ namespace risorius::rig {
 
 namespace {
 
-// One list of fields serves reading and writing, so that a key cannot exist in only one of them.
+// The same list of fields serves reading and writing, so that no key exists in only one of them.
 template <typename Visit>
 void visit_fields(JawDescription& jaw, Visit visit) {
     visit("hinge_mm", jaw.hinge_mm);
@@ -156,7 +156,7 @@ constexpr const char* kTableFiles[] = {"landmarks.json",   "tissue_thickness.jso
                                        "attachments.json", "muscle_bands.json",
                                        "muscles.json",     kWrinkleFile};
 
-// A rig without a table of its own has the lines of the standard anatomy.
+// A rig without its own table has the wrinkles of the standard anatomy.
 void read_wrinkles_of(const JsonCursor& anatomy, RigDescription& rig) {
     const auto named = anatomy.find("wrinkles");
     if (!named) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The contents of a rig file: its mesh, the roles of the mesh's groups, the landmarks, and the anatomy that moves the face.
-/// The format is described in rigs/README.md; field names are the JSON keys.
+/// The content of a rig file: mesh, roles of the groups of the mesh, landmarks, and the anatomy that moves the face.
+/// rigs/README.md describes the format; fields have the names of the JSON keys.
 #pragma once
 
 #include <filesystem>
@@ -21,82 +21,89 @@
 
 namespace risorius::rig {
 
-/// The role of a group of mesh faces. `teeth` and `gums_tongue` groups hold upper and lower pieces together: each connected piece is
-/// assigned to the skull or the mandible by its position.
+/// The names of the roles of mesh groups. Groups of `teeth` and `gums_tongue` may hold upper and lower pieces together: the
+/// position of each connected piece decides whether it belongs to the skull or the mandible.
 const std::vector<std::string_view>& part_roles();
 
+/// A landmark on the mesh of a rig.
 struct Landmark {
     int vertex = -1;          ///< of the mesh file, or -1 when xyz is given
     Vec3 xyz = Vec3::Zero();  ///< mesh units
 };
 
-/// Motion of the mandible: a rotation about the hinge axis plus a slide of the condyles that grows with the opening.
+/// Motion of the mandible: a rotation about the hinge axis, and a slide of the condyles that grows with the opening.
 struct JawDescription {
-    Vec3 hinge_mm{0, -4, 13};  ///< head frame at atlas size, on the axis through both condyles
-    double open_deg = 25.3;    ///< rotation at jaw_open = 1
+    /// Point on the axis through both condyles, head frame at atlas size
+    Vec3 hinge_mm{0, -4, 13};
+    double open_deg = 25.3;            ///< rotation at jaw_open = 1
     Vec3 open_slide_mm{0, -4.8, 3.4};  ///< at jaw_open = 1
     Vec3 forward_mm{0, -2.7, 8.6};     ///< at jaw_forward = 1
     double side_mm = 8.0;              ///< at jaw_side = 1, to the subject's left
 };
 
+/// Eyes, and how lids follow the gaze.
 struct EyesDescription {
     double gaze_limit_deg = 50;
     double iris_radius_mm = 5.95;
     double pupil_radius_mm = 1.8;
-    double upper_lid_per_gaze_down = 0.75;  ///< lid angle per gaze angle, ratio
+    double upper_lid_per_gaze_down = 0.75;  ///< lid angle over gaze angle
     double upper_lid_per_gaze_up = 0.48;
     double lower_lid_per_gaze_down = 0.29;
     double lower_lid_per_gaze_up = 0.19;
     double lids_per_gaze_aside = 0.25;
-    double wide_deg = 11.5;  ///< upper lid raised by a fully active levator
-    double lid_closed_fraction =
-        0.96;  ///< fraction of the lid fissure that the upper lid travels; the lower lid travels the rest
+    double wide_deg = 11.5;  ///< elevation of the upper lid by a fully active levator
+    /// Fraction of the lid fissure that the upper lid travels when the eye closes; the lower lid travels the rest
+    double lid_closed_fraction = 0.96;
 };
 
-/// How activation follows excitation, for every muscle. The laws are those of muscle/activation.h, the times those of the muscle table.
+/// How activation follows excitation in every muscle. The laws are those of muscle/activation.h; time constants come from the
+/// muscle table.
 struct ActivationDescription {
-    std::string law = "thelen2003";  ///< or "smooth"
-    double steepness =
-        10;  ///< of the smooth law: how sharply it changes between rising and falling activation
+    std::string law = "thelen2003";  ///< "thelen2003" or "smooth"
+    /// Of the smooth law: sharpness of the transition between rising and falling activation
+    double steepness = 10;
 };
 
-/// Soft tissue between skin and bone. Defaults: face formulation, calibrated on measured expressions.
+/// Soft tissue between skin and bone. The defaults were calibrated on measured expressions.
 struct TissueDescription {
     double deep_shear_pa = 910;
     double superficial_shear_pa = 1950;
     double bulk_pa = 22000;
     double density_kg_m3 = 1000;
-    double damping_s = 0.008;       ///< stiffness-proportional damping
-    double contact_pa_per_m = 5e6;  ///< deep tissue against bone and teeth, lip against lip
-    double lid_shear_ratio = 0.12;  ///< lid tissue against the rest
-    double lip_shear_ratio =
-        0.2;  ///< shear stiffness of lip tissue / that of other tissue; soft lips follow a dropping jaw only at their corners
+    double damping_s = 0.008;  ///< stiffness-proportional damping
+    /// Stiffness of contact, pressure per depth: deep tissue on bone and teeth, lip on lip, lid on eyeball
+    double contact_pa_per_m = 5e6;
+    double lid_shear_ratio = 0.12;  ///< shear and bulk modulus of the lids over those of the rest
+    /// Shear modulus of lip tissue over that of other tissue; soft lips follow a dropping jaw only at their corners
+    double lip_shear_ratio = 0.2;
     double modiolus_shear_ratio = 3.8;
     double crease_shear_ratio = 0.1;  ///< superficial tissue and skin beside the nasolabial fold
-    double malar_shear_ratio = 3;     ///< fat pad of the cheekbone, and the skin over it
-    double fibre_passive_strain =
-        1.5;                   ///< strain at which a relaxed fibre pulls with its isometric force
-    double force_scale = 1.5;  ///< factor on the force of every muscle, in addition to its strength
+    double malar_shear_ratio = 3;     ///< fat pad of the cheek, and the skin over it
+    /// Strain at which a relaxed fibre pulls with its maximum isometric force
+    double fibre_passive_strain = 1.5;
+    double force_scale = 1.5;  ///< factor of the force of every muscle, in addition to its strength
 };
 
+/// The skin as a membrane.
 struct SkinDescription {
     double membrane_n_per_m = 11.4;
     double bending_n_m = 2.9e-5;
     double lid_membrane_ratio = 0.012;
-    double wrinkles =
-        1.0;  ///< fraction of the folding that the compressed skin could do; 0: no folds
+    /// Depth of wrinkles in compressed skin relative to that of a young adult, 0..10: 0 none, 3 an old face
+    double wrinkles = 1.0;
 };
 
-/// Factors of this head, relative to the standard head: how far orbicularis oris turns and pushes the lips, and how much of the mouth
-/// pressure of the standard action units puffs the cheeks. [0.05, 4]
+/// Factors of this head relative to the standard head: how far orbicularis oris turns and pushes the lips, and how much of the
+/// mouth pressure of the standard action units puffs the cheeks. [0.05, 4]
 struct LipsDescription {
     double upper_turn = 1, lower_turn = 1, upper_push = 1, lower_push = 1, puff = 1;
 };
 
-/// Appearance generated for heads without textures of their own; colours sRGB 0..1.
+/// Appearance generated for heads without textures of their own; colours are sRGB 0..1. The fields are those of
+/// render::Appearance.
 struct AppearanceDescription {
-    std::string textures =
-        "mesh";  ///< "mesh": pictures of the mesh's materials where it has them; "generated": never
+    /// "mesh": textures of the mesh's materials where it has them; "generated": never
+    std::string textures = "mesh";
     Vec3 skin_tone{0.80, 0.60, 0.50};
     Vec3 lip_tone{0.72, 0.42, 0.40};
     Vec3 hair_tone{0.22, 0.15, 0.10};
@@ -111,15 +118,16 @@ struct AppearanceDescription {
     int seed = 1;
 };
 
+/// Everything that a rig file and its tables say.
 struct RigDescription {
     std::string name;
     std::filesystem::path mesh_file;
     double metres_per_unit = 1.0;
-    std::map<std::string, std::vector<std::string>> parts;  ///< role -> mesh groups
+    std::map<std::string, std::vector<std::string>> parts;  ///< role -> names of mesh groups
     std::map<std::string, Landmark> landmarks;
     Atlas atlas;  ///< landmarks, thickness, attachments, muscle bands
     MuscleTable muscles;
-    std::vector<SolidMuscle> solids;  ///< muscles that are not bundles of fibres
+    std::vector<SolidMuscle> solids;  ///< muscles that are simulated as solids
     LipsDescription lips;
     JawDescription jaw;
     EyesDescription eyes;
@@ -129,26 +137,28 @@ struct RigDescription {
     track::FacsTable facs;
     track::Expressions expressions;
     AppearanceDescription appearance;
-    std::vector<std::string> notes;                  ///< keys of the file that have new names
-    std::vector<std::filesystem::path> table_files;  ///< files that the rig file names
+    std::vector<std::string> notes;                  ///< keys of the file that have been renamed
+    std::vector<std::filesystem::path> table_files;  ///< tables that the rig file names
 
-    const SolidMuscle* solid(const std::string& muscle) const;  ///< null for a bundle of fibres
+    /// Null for a muscle that is a bundle of fibres
+    const SolidMuscle* solid(const std::string& muscle) const;
     track::ChannelTable channels() const { return muscles.channels(); }
 };
 
-/// Throws Error that names file, place, the expected and the found value.
+/// Reads a rig file and its tables. Throws Error with file, place, and the expected and the found value.
 RigDescription read_rig(const std::filesystem::path& file);
 
-/// How `fit` writes a rig: with its own copies of the standard tables, or with the paths of those in `standard_folder`. The file is written
-/// under another name first and then renamed, so that no incomplete file is left.
+/// How a rig is written: with copies of the standard tables, or with paths of those in `standard_folder`. The file is written
+/// under a temporary name and then renamed, so that no incomplete file is left.
 struct RigWriteOptions {
-    std::filesystem::path standard_folder;  ///< where muscles.json, facs.json, ... are
+    std::filesystem::path standard_folder;  ///< folder of muscles.json, facs.json, ...
     bool inline_tables = true;
 };
 void write_rig(const RigDescription& rig, const std::filesystem::path& file,
                const RigWriteOptions& options);
 
-/// Landmark files: {"format": "risorius-landmarks", "version": 1, "landmarks": {id: {"vertex": n} | {"xyz": [..]}}}.
+/// Reads a landmark file: {"format": "risorius-landmarks", "version": 1, "landmarks": {id: {"vertex": n} | {"xyz": [..]}}}.
+/// Throws Error.
 std::map<std::string, Landmark> read_landmarks(const std::filesystem::path& file);
 std::map<std::string, Landmark> read_landmark_table(JsonCursor table);
 

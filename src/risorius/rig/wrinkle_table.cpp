@@ -39,7 +39,7 @@ std::string known_landmark(const JsonCursor& json, const Ids& known) {
     return id;
 }
 
-// A number alone is a length in mm, or an angle.
+// A plain number is a length in mm, or an angle.
 WrinkleBound read_bound(const JsonCursor& json, const Ids& known) {
     WrinkleBound out;
     if (json.is_number()) {

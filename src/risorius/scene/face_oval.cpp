@@ -12,7 +12,7 @@ double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
     return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// Andrew's monotone chain.
+/// Convex hull by Andrew's monotone chain.
 std::vector<Vec2> hull_of(std::vector<Vec2> points) {
     if (points.size() < 3) return {};
     std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
@@ -73,7 +73,7 @@ bool FaceOval::contains(const Vec2& point) const {
 }
 
 FaceOval::Span FaceOval::pixels_of_row(int y, int width_px) const {
-    // Each side of the border keeps the part of the row on one side of a point, or all of it, or nothing
+    // Each edge of the border keeps the part of the row on its inner side.
     double left = 0, right = width_px;
     for (std::size_t i = 0; i < border_.size(); ++i) {
         const Vec2 &a = border_[i], &b = border_[(i + 1) % border_.size()];
@@ -86,7 +86,7 @@ FaceOval::Span FaceOval::pixels_of_row(int y, int width_px) const {
         else if (at_zero < 0)
             return {};
     }
-    // Pixels near the ends are decided by contains(), for equal rounding
+    // Near the ends contains() decides, so that rounding is the same.
     const auto pixel = [&](double x) {
         return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(width_px)));
     };

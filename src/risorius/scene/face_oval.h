@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The oval of a face in a picture, from hairline to chin: a smooth convex curve through its landmarks.
+/// The oval of a face in a picture, from hairline to chin: a smooth convex curve through landmarks.
 #pragma once
 
 #include <string>
@@ -12,14 +12,14 @@ namespace risorius::scene {
 
 class FaceOval {
   public:
-    /// Identifiers of the landmarks around the face, in no order.
+    /// Ids of the landmarks around the face, in no particular order.
     static const std::vector<std::string>& landmarks();
 
-    /// `points`: those of the landmarks that the head has, pixels. An oval of fewer than three points contains nothing.
+    /// `points`: the landmarks that the head has, in pixels. An oval of fewer than three points contains nothing.
     explicit FaceOval(std::vector<Vec2> points);
 
     bool contains(const Vec2& point) const;
-    /// The pixels of a row whose centres the oval contains: from `first` up to, but not including, `end`.
+    /// The pixels of a row whose centres lie in the oval: from `first` up to, but not including, `end`.
     struct Span {
         int first = 0, end = 0;
     };

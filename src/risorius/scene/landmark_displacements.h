@@ -21,17 +21,18 @@ namespace risorius::scene {
 
 class LandmarkDisplacements {
   public:
-    /// `face` and `rig` have to outlive it; `place` names the rig in messages.
+    /// `face` and `rig` must outlive this object; `place` names the rig in messages.
     LandmarkDisplacements(face::Face& face, const rig::RigDescription& rig,
                           const std::string& place);
 
     const std::vector<std::string>& landmarks() const { return ids_; }
     int vertex(std::size_t landmark) const { return points_.vertex(ids_[landmark]); }
-    /// The drive of an expression from the tables of the rig. Throws Error when they do not have the name.
+    /// The drive of an expression from the rig's tables. Throws Error for an unknown name.
     track::Drive drive(const std::string& expression) const;
     /// Solves the equilibrium of the face under the drive, from rest, and returns the displacements of landmarks(): n x 3, m, at
     /// the size of the atlas head.
     Points solve_equilibrium(const track::Drive& drive, int iterations = face::kRestIterations);
+    /// Whether the last call of solve_equilibrium() reached equilibrium.
     bool in_equilibrium() const { return in_equilibrium_; }
 
   private:
@@ -47,7 +48,7 @@ class LandmarkDisplacements {
 /// Expression -> landmark -> displacement, m.
 using DisplacementTable = std::map<std::string, std::map<std::string, Vec3>>;
 
-/// Reads a file as above. Throws Error.
+/// Reads a file of the format above. Throws Error.
 DisplacementTable read_landmark_displacements(const std::filesystem::path& file);
 Json landmark_displacements_json(const DisplacementTable& displacements, const std::string& source);
 

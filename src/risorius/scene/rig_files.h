@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A rig and the mesh that it names, both checked.
+/// A rig file and the mesh that it names, both read and checked.
 #pragma once
 
 #include <filesystem>
@@ -21,10 +21,10 @@ struct RigFiles {
     std::string place() const { return file.string(); }
 };
 
-/// Throws Error when the rig or its mesh cannot be used.
+/// Reads both files. Throws Error when the rig or its mesh cannot be used.
 RigFiles read_rig_files(const std::filesystem::path& rig_file);
 
-/// Checks the outer skin; other parts of the mesh need not be a manifold surface. Throws Error naming the mesh file.
+/// Checks the outer skin; other parts of the mesh need not be manifold. Throws Error naming the mesh file.
 geom::MeshReport check_skin(const rig::RigDescription& rig, const geom::PolygonMesh& mesh);
 
 }  // namespace risorius::scene

@@ -25,7 +25,7 @@ std::optional<Material> material_of(const std::string& role) {
     return std::nullopt;
 }
 
-/// A value for each triangle of a group, in the order of geom::triangulate().
+/// One value per triangle of a group, in the order of geom::triangulate().
 std::vector<int> textures_of(const geom::PolygonMesh& mesh, int group) {
     std::vector<int> textures;
     for (int face = 0; face < mesh.face_count(); ++face) {
@@ -38,8 +38,8 @@ std::vector<int> textures_of(const geom::PolygonMesh& mesh, int group) {
     return textures;
 }
 
-// The triangles of one group and texture that `wanted` accepts, with their texture coordinates. Seams of the skin are closed: each
-// vertex is replaced by its representative, so that normals are continuous across seams.
+// The triangles of a group and texture that `wanted` accepts, with their texture coordinates. Seams of the skin are closed: each
+// vertex is replaced by its representative, so that normals are continuous.
 render::Surface surface_of(const rig::Head& head, const geom::PolygonMesh& mesh, int group,
                            Material material, int texture,
                            const std::function<bool(int vertex)>& wanted) {
@@ -88,7 +88,7 @@ Points eyes_shut(const rig::Head& head, const rig::RigDescription& rig) {
     return shut;
 }
 
-// Reads each texture when the first surface needs it.
+// Reads a texture when it is first needed.
 class TexturePictures {
   public:
     TexturePictures(const geom::PolygonMesh& mesh, bool wanted, std::vector<Image>& images)
@@ -118,7 +118,7 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
     scene.landmarks = head.landmarks;
     TexturePictures pictures(mesh, rig.appearance.textures == "mesh", scene.textures);
 
-    // One surface for each group of faces and each texture; the tongue is separated from the gums by connected components
+    // One surface per group of faces and texture. The tongue is separated from the gums by connected components.
     const auto add = [&](int group, Material material, const std::function<bool(int)>& wanted) {
         const std::string& role = head.role_of_group[static_cast<std::size_t>(group)];
         const bool clear = material == Material::kCornea || material == Material::kLashes;

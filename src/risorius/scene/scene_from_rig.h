@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Makes the scene that the renderer draws, and the pose of a frame, from the head and its face.
+/// Makes the scene for the renderer, and the pose of a frame, from a head and its face.
 #pragma once
 
 #include "risorius/face/surfaces.h"
@@ -12,22 +12,22 @@
 
 namespace risorius::scene {
 
-/// Throws Error when a texture cannot be read.
+/// The scene of a head. Throws Error when a texture cannot be read.
 render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& rig,
                              const geom::PolygonMesh& mesh);
 
 /// Adds the lines along which the skin can wrinkle. Call it before a view of the scene is made.
 void add_wrinkles(const face::WrinkleLines& lines, render::Scene& scene);
 
-/// The pose of a frame as the renderer takes it.
+/// The pose of a frame for the renderer.
 render::Pose pose_for_view(const face::FacePose& pose);
 
-/// The shapes of the muscles, for the scene; and their colours and positions in one frame, for its pose.
+/// The shapes of the muscles for the scene; and for the pose of a frame their colours and positions.
 render::Muscles muscles_for_view(const face::MuscleSurfaces& surfaces);
 void add_muscles(const face::MuscleSurfaces& surfaces, const Eigen::VectorXd& activation,
                  Points vertices, render::Pose& pose);
 
-/// The bones, with the vertices of the skull first, for the scene; and their positions in one frame, for its pose.
+/// The bones for the scene, vertices of the skull first; and for the pose of a frame their positions.
 render::Bones bones_for_view(const face::Skull& skull);
 void add_bones(const face::Skull& skull, const face::FacePose& pose, render::Pose& out);
 

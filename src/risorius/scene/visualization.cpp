@@ -60,7 +60,7 @@ std::vector<double> principal_strain(const Triangles& skin, const Points& rest,
                    x2 = side(positions, 2);
         const double area = r1.cross(r2).norm();
         if (area <= 0) continue;
-        // C = F^T F in an orthonormal frame of the triangle at rest; its eigenvalues are squared stretches
+        // C = F^T F in an orthonormal frame of the rest triangle. The eigenvalues are squared stretches.
         const double a = r1.norm(), b = r1.dot(r2) / a, h = area / a;
         const double c11 = x1.squaredNorm() / (a * a);
         const double c12 = (x1.dot(x2) - b / a * x1.squaredNorm()) / (a * h);

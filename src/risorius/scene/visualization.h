@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What a picture shows besides the face: a quantity as colours on the skin, or lines and marks over it.
+/// Additions to the picture of a face: a quantity as colours on the skin, or lines and marks over it.
 #pragma once
 
 #include <array>
@@ -16,21 +16,22 @@
 
 namespace risorius::scene {
 
-/// Signed principal strain of the skin for each vertex, ratio: the one of the two with the larger magnitude, averaged over the
-/// triangles of the vertex with their areas at rest as weights. Vertices outside the skin get NaN.
+/// Signed principal strain of the skin per vertex, ratio: of the two principal strains the one with the larger magnitude,
+/// averaged over the triangles of the vertex, weighted by rest area. Vertices outside the skin get NaN.
 std::vector<double> principal_strain(const Triangles& skin, const Points& rest,
                                      const Points& positions);
 
+/// The additions that a value of Show asks for.
 class Visualization {
   public:
     Visualization(render::Show show, const render::Scene& scene, const rig::Head& head,
                   const geom::PolygonMesh& mesh, const render::OffscreenView& view, int width_px,
                   int height_px, const LandmarkPoints& landmarks, std::optional<double> scale = {});
 
-    /// The value at which the colours end: strain (ratio, in both directions from 0) or error (mm). Not given: 0.4 and 5 mm.
+    /// End of the colour scale: strain (ratio, in both directions from 0) or error (mm). Default: 0.4 and 5 mm.
     static double scale_end(render::Show show, std::optional<double> given);
 
-    /// The quantity for each vertex, or none. `reference`: positions in the run to compare with.
+    /// The quantity per vertex, or none. `reference`: positions in the run to compare with.
     std::optional<render::SkinValues> values(const Points& positions,
                                              const std::optional<Points>& reference) const;
     /// Draws lines and marks over a picture of the pose.

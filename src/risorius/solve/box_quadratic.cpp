@@ -15,7 +15,7 @@ enum class Place { kMin, kZero, kMax, kBelowZero, kAboveZero };
 Place place_of(const BoxQuadratic& problem, const Eigen::VectorXd& x, long i) {
     if (x[i] == problem.min[i]) return Place::kMin;
     if (x[i] == problem.max[i]) return Place::kMax;
-    if (x[i] == 0 && problem.price[i] > 0) return Place::kZero;
+    if (x[i] == 0 && problem.l1_weight[i] > 0) return Place::kZero;
     return x[i] < 0 ? Place::kBelowZero : Place::kAboveZero;
 }
 
@@ -35,7 +35,7 @@ void jump(const BoxQuadratic& problem, const std::vector<Place>& places, Eigen::
         for (long k = 0; k < count; ++k) {
             const long i = unknown(k);
             for (long l = 0; l < count; ++l) A(k, l) = problem.A(i, unknown(l));
-            down[k] = -slope[i] - std::copysign(problem.price[i], x[i]);
+            down[k] = -slope[i] - std::copysign(problem.l1_weight[i], x[i]);
         }
         const Eigen::LLT<Eigen::MatrixXd> factor(A);
         if (factor.info() != Eigen::Success) return;
@@ -44,9 +44,9 @@ void jump(const BoxQuadratic& problem, const std::vector<Place>& places, Eigen::
         long first = -1;
         for (long k = 0; k < count; ++k) {
             const long i = unknown(k);
-            const bool priced = problem.price[i] > 0;
+            const bool weighted = problem.l1_weight[i] > 0;
             double end = step[k] > 0 ? problem.max[i] : problem.min[i];
-            if (priced && x[i] * step[k] < 0 && x[i] * end < 0) end = 0;
+            if (weighted && x[i] * step[k] < 0 && x[i] * end < 0) end = 0;
             if (!(std::abs(step[k]) * way > std::abs(end - x[i]))) continue;
             way = (end - x[i]) / step[k];
             stop = end;
@@ -74,7 +74,7 @@ int minimise(const BoxQuadratic& problem, Eigen::VectorXd& x, double tolerance, 
             if (!(curvature > 0)) continue;
             // Without bounds, the minimum in this coordinate is at `free`, pulled towards 0 by the L1 weight.
             const double free = x[i] - slope[i] / curvature;
-            const double drawn = std::max(0.0, std::abs(free) - problem.price[i] / curvature);
+            const double drawn = std::max(0.0, std::abs(free) - problem.l1_weight[i] / curvature);
             const double next =
                 std::clamp(std::copysign(drawn, free), problem.min[i], problem.max[i]);
             const double change = next - x[i];

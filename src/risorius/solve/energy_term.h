@@ -17,7 +17,8 @@
 /// (energy and gradient), add_hessian and add_metric. Override begin_step() when the term depends on where a step starts, and
 /// add_force() and energy() when it damps or depends on time. Then add it:
 /// - to a soft body or another MotionSystem: call `system.add(std::make_shared<MyForce>(...))`;
-/// - to the face: write one line in FaceTissue::build_terms() (face/solver/detail/face_terms.cpp), or call Face::add_force().
+/// - to the face: write one line in FaceTissue::build_terms() (face/solver/detail/face_tissue.cpp), or call Face::add_force().
+///   A force that takes part in the motion of bone, lids or air derives from face::FaceTerm (face/solver/detail/face_terms.h).
 ///
 /// Check the derivatives of the new class with tests/force_term_checks.h.
 #pragma once

@@ -23,9 +23,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kScene_s = 2;  // estimate for two cores: to build face, scene and view
+constexpr double kScene_s = 2;  // estimated time on two cores to build face, scene and view
 
-/// Calls make(i, session) for all i < count, on one thread for each worker, which has a session of its own.
+/// Calls make(i, session) for all i < count, with one thread per worker. Each worker has its own session.
 void for_each(std::size_t count, int workers,
               const std::function<void(std::size_t i, animate::RenderSession&)>& make) {
     std::atomic<std::size_t> next{0};
@@ -48,7 +48,7 @@ void for_each(std::size_t count, int workers,
     if (failure) std::rethrow_exception(failure);
 }
 
-/// Numbers the conditions, and notes which unmatched renders are still needed when the clip itself is made.
+/// Numbers the conditions, and marks which unmatched renders are needed again when the clip itself is made.
 void share_renders(std::vector<ClipPlan>& clips) {
     std::map<std::string, std::size_t> at;
     std::size_t conditions = 0;
@@ -63,7 +63,7 @@ void share_renders(std::vector<ClipPlan>& clips) {
     }
 }
 
-/// Notes clips that differ only in their names: their script does not use one of the factors.
+/// Adds a note about clips that differ only in their names: their script does not use one of the factors.
 void note_twins(BatchPlan& plan) {
     std::map<std::string, const ClipPlan*> first;
     std::string example;
@@ -168,12 +168,12 @@ class BatchRun {
         for (const ClipPlan* clip : clips) left_s_ += clip->seconds();
         const double all_s = left_s_;
         int count = 0;
-        // One thread for each clip, so that a worker is one core of a cluster; more where there are too few clips
+        // With many clips, each gets one thread, so that a worker uses one core of a cluster. With few clips, each gets more.
         const int at_once = std::clamp(static_cast<int>(clips.size()), 1, options_.workers);
         for_each(clips.size(), at_once, [&](std::size_t i, animate::RenderSession& session) {
             const ClipPlan& clip = *clips[i];
             std::string why;
-            // The progress of single frames is not reported
+            // The progress of single frames is not reported.
             const ProgressMonitor frames{.progress = {}, .stopped = monitor_.stopped};
             try {
                 {
@@ -209,7 +209,7 @@ class BatchRun {
     animate::RenderInputs& inputs_;
     BatchReport& report_;
     std::mutex reporting_;
-    double left_s_ = 0;  ///< estimated time of the clips that are not done
+    double left_s_ = 0;  ///< estimated time of the remaining clips
 };
 
 }  // namespace
@@ -222,7 +222,7 @@ BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monit
     report.name = plan.name;
     BatchRun run(options, monitor, *plan.inputs, report);
 
-    // Luminance is matched over the whole set: all conditions are rendered before the first clip is made
+    // Luminance is matched over the whole set, so all conditions are rendered before the first clip is made.
     if (plan.match.luminance) {
         std::vector<const ClipPlan*> conditions;
         for (const std::size_t i : unmeasured(plan, options.out))
@@ -238,7 +238,7 @@ BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monit
         match_luminance(options.out, plan);
     }
 
-    // Which clips are there already
+    // Find the clips that exist already.
     std::vector<const ClipPlan*> wanted;
     for (std::size_t i = 0; i < plan.clips.size(); ++i) {
         const ClipPlan& clip = plan.clips[i];
@@ -253,7 +253,7 @@ BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monit
     }
     report.made = run.work(wanted, "made", make_clip);
 
-    // The files of the whole set
+    // Write the files of the whole set.
     if (report.failed.empty() && report.elsewhere == 0) {
         monitor.report(1, "the files of the set");
         write_set(plan, options.design, options.out);

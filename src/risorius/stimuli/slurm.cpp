@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The manual of Slurm asks programs not to query the controller more often
+// The Slurm manual asks programs not to query the controller more often.
 constexpr auto kBetweenQueries = std::chrono::seconds(2);
 
 /// Quotes text for a POSIX shell.
@@ -75,7 +75,7 @@ class Job {
             id_.find_first_not_of("0123456789") != std::string::npos)
             throw RunError("sbatch: " + one_line(sent.output));
     }
-    /// Whether any task waits or runs. A job that Slurm does not know any more has ended.
+    /// Whether any task is pending or running. A job that Slurm no longer knows has ended.
     bool goes_on() const {
         const report::ProgramResult seen = slurm_program({"squeue", "-h", "-j", id_, "-o", "%T"});
         return seen.exit_code == 0 && !one_line(seen.output).empty();
@@ -114,10 +114,10 @@ std::string slurm_script(const BatchOptions& batch, const SlurmOptions& slurm, i
     return script + "\n";
 }
 
-/// Submits job arrays one after the other, until no clip is missing or all retries are used.
+/// Submits job arrays one after the other, until no clip is missing or no retries are left.
 class Rounds {
   public:
-    /// Finds the clips that are missing, by their indices in the plan.
+    /// Returns the indices in the plan of the missing clips.
     using FindMissing = std::function<std::vector<std::size_t>()>;
 
     Rounds(const BatchOptions& batch, const SlurmOptions& slurm, int tasks,
@@ -130,7 +130,7 @@ class Rounds {
         std::vector<std::size_t> missing = find_missing();
         const auto all = static_cast<double>(missing.size());
         for (int round = 0; round <= slurm_.retries && !missing.empty(); ++round) {
-            // The parts of make_batch()
+            // The parts are those of make_batch().
             std::set<int> parts;
             for (const std::size_t i : missing)
                 parts.insert(static_cast<int>(number(i) % static_cast<std::size_t>(tasks_)) + 1);
@@ -173,7 +173,8 @@ BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& s
     report::write_text(batch.out / "code/slurm.sh", slurm_script(batch, slurm, tasks));
     Rounds rounds(batch, slurm, tasks, monitor);
 
-    // Luminance is matched over the whole set: all conditions are rendered first. A task makes clips too when all are there
+    // Luminance is matched over the whole set, so all conditions are rendered first. A task makes clips as well once all renders
+    // exist.
     std::vector<std::size_t> missing = rounds.run(
         "conditions", [&] { return unmeasured(plan, batch.out); },
         [&](std::size_t i) { return plan.clips[i].condition_number; });

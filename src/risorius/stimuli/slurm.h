@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A batch on a cluster. A Slurm job array makes the clips in parts, on nodes that share only the file system. This program submits it,
-/// follows it, submits failed parts again and completes the set.
+/// A batch on a cluster. A Slurm job array makes the clips in parts, on nodes that share only the file system. This process
+/// submits the job, follows it, resubmits failed parts and completes the set.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +13,7 @@
 
 namespace risorius::stimuli {
 
+/// Options of the Slurm job.
 struct SlurmOptions {
     /// The command that makes one part of the set on a node: its words, given the design, the folder of the set, how many clips are
     /// made at once, and the part as "N/COUNT". N is the number of the task; the batch script puts it in. The command writes one JSON
@@ -21,15 +22,15 @@ struct SlurmOptions {
                                            const std::filesystem::path& out, int workers,
                                            const std::string& part)>
         part_command;
-    int tasks = 8;    ///< of the array; at most one for each clip
-    int workers = 1;  ///< clips made at once in a task, and CPUs of a task
-    int retries = 1;  ///< how often tasks with missing clips are submitted again
+    int tasks = 8;    ///< tasks of the job array; at most one per clip
+    int workers = 1;  ///< number of clips made at the same time by a task, and CPUs of a task
+    int retries = 1;  ///< how often tasks with missing clips are resubmitted
     std::string account, partition, time;  ///< options of sbatch; empty: not given
 };
 
-/// Makes the set by a job array. Its script is DIR/code/slurm.sh, the logs of its tasks are DIR/code/slurm-ROUND-TASK.log.
-/// Throws Error for a wrong design, RunError when Slurm is missing or refuses the job, and Interrupted when the monitor asks to stop
-/// (the job is cancelled then).
+/// Makes a batch by a job array. Its script is DIR/code/slurm.sh; the logs of its tasks are DIR/code/slurm-ROUND-TASK.log. Throws Error
+/// for a wrong design, RunError when Slurm is missing or rejects the job, and Interrupted when the monitor asks to stop, after cancelling
+/// the job.
 BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& slurm,
                                 const ProgressMonitor& monitor = {});
 

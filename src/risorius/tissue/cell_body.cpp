@@ -83,7 +83,7 @@ void share_out(const CellMesh& mesh, std::size_t cell, double amount, Eigen::Vec
 
 }  // namespace
 
-CellBody cell_body(const GridSolid& solid, CellMesh mesh, MassShares fractions,
+CellBody cell_body(const GridSolid& solid, CellMesh mesh, MassFractions fractions,
                    const RestShape& rest) {
     CellBody body{std::move(mesh), {}, {}, {}, {}, {}};
     body.rest = rest_of_nodes(
@@ -101,7 +101,7 @@ CellBody cell_body(const GridSolid& solid, CellMesh mesh, MassShares fractions,
                                    sampled.back().incompressibility_n_per_m5});
     }
     const Eigen::VectorXd described_drag = node_drag(solid);
-    if (fractions == MassShares::kNodes) {
+    if (fractions == MassFractions::kNodes) {
         if (!body.mesh.uniform())
             throw std::invalid_argument("the same mass on every node needs a uniform mesh");
         for (int i = 0; i < nodes; ++i) {
@@ -126,7 +126,7 @@ CellBody cell_body(const GridSolid& solid, CellMesh mesh, MassShares fractions,
 }
 
 CellBody cell_body(const GridSolid& solid) {
-    return cell_body(solid, uniform_cells(solid.grid), MassShares::kNodes);
+    return cell_body(solid, uniform_cells(solid.grid), MassFractions::kNodes);
 }
 
 CellBody cell_body(CellMesh mesh, const RestShape& rest, const CellModuli& moduli,

@@ -39,7 +39,7 @@ struct CellModuli {
 };
 
 /// How the mass of the cells is distributed to the nodes.
-enum class MassShares {
+enum class MassFractions {
     kNodes,  ///< as in the thesis: all M N O nodes have the same mass; borders are too heavy
     kCells   ///< each cell distributes its mass to its eight corners; refined meshes need this
 };
@@ -61,7 +61,7 @@ using RestShape = std::function<Vec3(const Vec3& a)>;
 /// cells. The total mass is that of the description. `rest` may give a rest shape with more detail than the grid of the
 /// description; without it, the rest shape is interpolated in the grid. Throws std::invalid_argument for kNodes on a mesh that
 /// is not uniform.
-CellBody cell_body(const GridSolid& solid, CellMesh mesh, MassShares fractions,
+CellBody cell_body(const GridSolid& solid, CellMesh mesh, MassFractions fractions,
                    const RestShape& rest = {});
 /// The described body on the description's own grid, with the same mass for each node (kNodes).
 CellBody cell_body(const GridSolid& solid);

@@ -44,7 +44,9 @@ AdaptiveSolid::AdaptiveSolid(const GridShape& root, BodyOnMesh body, const Refin
 AdaptiveSolid::AdaptiveSolid(const GridSolid& solid, const RefineOptions& options)
     : AdaptiveSolid(
           solid.grid,
-          [solid](CellMesh mesh) { return cell_body(solid, std::move(mesh), MassShares::kCells); },
+          [solid](CellMesh mesh) {
+              return cell_body(solid, std::move(mesh), MassFractions::kCells);
+          },
           options) {}
 
 solve::MotionState AdaptiveSolid::start() const {

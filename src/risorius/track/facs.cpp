@@ -12,23 +12,23 @@ std::string did_you_mean(const std::string& name, const std::vector<std::string_
 
 double& value(KinematicValues& values, Kinematic k) { return values[static_cast<std::size_t>(k)]; }
 
-MuscleShare read_fraction(const JsonCursor& json, const std::string& name,
-                          const ChannelTable& channels) {
-    MuscleShare fraction = muscle_named(json, name, channels);
+MuscleFraction read_fraction(const JsonCursor& json, const std::string& name,
+                             const ChannelTable& channels) {
+    MuscleFraction fraction = muscle_named(json, name, channels);
     fraction.weight = json.number({channels.find(fraction.muscle)->min, 1.0});
     return fraction;
 }
 
-std::vector<MuscleShare> read_shares(const JsonCursor& json, const ChannelTable& channels) {
-    std::vector<MuscleShare> fractions;
+std::vector<MuscleFraction> read_shares(const JsonCursor& json, const ChannelTable& channels) {
+    std::vector<MuscleFraction> fractions;
     for (const std::string& name : json.keys())
         fractions.push_back(read_fraction(json.at(name), name, channels));
     return fractions;
 }
 
-JawShare read_jaw(const JsonCursor& json, const FacsRanges& ranges) {
+JawFraction read_jaw(const JsonCursor& json, const FacsRanges& ranges) {
     json.allow_keys({"open", "protrude_mm", "lateral_mm"});
-    JawShare jaw;
+    JawFraction jaw;
     if (const auto v = json.find("open")) jaw.open = v->number({0, 1});
     if (const auto v = json.find("protrude_mm"))
         jaw.protrude_mm = v->number({0, ranges.jaw_forward_mm});
@@ -37,7 +37,7 @@ JawShare read_jaw(const JsonCursor& json, const FacsRanges& ranges) {
     return jaw;
 }
 
-void apply_jaw(const JawShare& jaw, const FacsRanges& ranges, KinematicValues& values) {
+void apply_jaw(const JawFraction& jaw, const FacsRanges& ranges, KinematicValues& values) {
     if (jaw.open) value(values, Kinematic::kJawOpen) = *jaw.open;
     if (jaw.protrude_mm)
         value(values, Kinematic::kJawForward) = *jaw.protrude_mm / ranges.jaw_forward_mm;
@@ -150,8 +150,8 @@ const Expression* Expressions::find(const std::string& name) const {
     return nullptr;
 }
 
-MuscleShare muscle_named(const JsonCursor& place, const std::string& name,
-                         const ChannelTable& channels) {
+MuscleFraction muscle_named(const JsonCursor& place, const std::string& name,
+                            const ChannelTable& channels) {
     const SidedName sided = split_side(name);
     const MuscleChannel* muscle = channels.find(sided.id);
     if (!muscle) {
@@ -258,7 +258,7 @@ void Expansion::add(const Expansion& part, double weight) {
     for (std::size_t k = 0; k < kinematic.size(); ++k) kinematic[k] += weight * part.kinematic[k];
 }
 
-Expansion expand(const MuscleShare& fraction, const ChannelTable& channels) {
+Expansion expand(const MuscleFraction& fraction, const ChannelTable& channels) {
     Expansion expansion = Expansion::none(channels);
     for (Side side : {Side::kLeft, Side::kRight})
         if (!fraction.side || *fraction.side == side)
@@ -268,8 +268,8 @@ Expansion expand(const MuscleShare& fraction, const ChannelTable& channels) {
 
 Expansion expand(const ActionUnit& unit, std::optional<Side> side, const ChannelTable& channels) {
     Expansion expansion = Expansion::none(channels);
-    for (const MuscleShare& muscle : unit.muscles) {
-        MuscleShare fraction = muscle;
+    for (const MuscleFraction& muscle : unit.muscles) {
+        MuscleFraction fraction = muscle;
         const bool paired = channels.find(muscle.muscle)->paired;
         if (side && !paired) fraction.weight /= 2;
         if (side && paired && !fraction.side) fraction.side = side;
@@ -291,7 +291,7 @@ Expansion expand(const ArkitShape& shape, const FacsTable& facs, const ChannelTa
     Expansion expansion = Expansion::none(channels);
     for (const UnitUse& use : shape.units)
         expansion.add(expand(*facs.find(use.unit), use.side, channels), use.value);
-    for (const MuscleShare& fraction : shape.muscles)
+    for (const MuscleFraction& fraction : shape.muscles)
         for (Side side : {Side::kLeft, Side::kRight})
             if (!fraction.side || *fraction.side == side)
                 expansion.excitation[channels.column(fraction.muscle, side)] = fraction.weight;

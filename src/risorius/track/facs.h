@@ -19,14 +19,14 @@
 namespace risorius::track {
 
 /// The part of a muscle in a unit.
-struct MuscleShare {
+struct MuscleFraction {
     std::string muscle;
     std::optional<Side> side;  ///< none: both sides
     double weight = 0;         ///< excitation at full intensity
 };
 
 /// Movement of the jaw at full intensity. Fields are unset where the table does not give them.
-struct JawShare {
+struct JawFraction {
     std::optional<double> open;  ///< fraction of the opening range
     std::optional<double> protrude_mm;
     std::optional<double> lateral_mm;  ///< > 0 to the subject's left
@@ -37,7 +37,7 @@ struct ActionUnit {
     std::string id;      ///< "AU12", "AU30.l"
     std::string name;    ///< "Lip corner puller"
     bool sided = false;  ///< may be restricted to a side with .l or .r
-    std::vector<MuscleShare> muscles;
+    std::vector<MuscleFraction> muscles;
     KinematicValues kinematic{};
     std::string unsupported;  ///< why this face cannot show the unit; empty when it can
     /// Left or midline landmark, and its displacement.
@@ -56,8 +56,8 @@ struct UnitUse {
 struct ArkitShape {
     std::string name;
     std::vector<UnitUse> units;
-    std::vector<MuscleShare> muscles;
-    JawShare jaw;
+    std::vector<MuscleFraction> muscles;
+    JawFraction jaw;
     std::optional<double> tongue_out_mm, tongue_up;  ///< tongue_up: curl of the tip, [-1, 1]
 };
 
@@ -114,13 +114,13 @@ struct Expansion {
     void add(const Expansion& part, double weight);
 };
 
-Expansion expand(const MuscleShare& fraction, const ChannelTable& channels);
+Expansion expand(const MuscleFraction& fraction, const ChannelTable& channels);
 Expansion expand(const ActionUnit& unit, std::optional<Side> side, const ChannelTable& channels);
 Expansion expand(const ArkitShape& shape, const FacsTable& facs, const ChannelTable& channels);
 
 /// "zygomaticus_major.l" with weight 1. Throws Error at `place` for an unknown muscle, or for a side it does not have.
-MuscleShare muscle_named(const JsonCursor& place, const std::string& name,
-                         const ChannelTable& channels);
+MuscleFraction muscle_named(const JsonCursor& place, const std::string& name,
+                            const ChannelTable& channels);
 
 /// True for "AU" and a number, whether a table has the unit or not.
 bool is_unit_number(std::string_view name);

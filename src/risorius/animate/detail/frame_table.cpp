@@ -49,7 +49,7 @@ void FrameTable::add(int frame, double time_s, const track::Drive& drive,
                      const Eigen::VectorXd& activation, const face::FacePose& pose) {
     std::string row;
     row += std::to_string(frame) + cell(time_s, 6);
-    // A muscle whose activation is set directly has no excitation of its own.
+    // A muscle with a prescribed activation has no excitation.
     for (double value : drive.excitation) row += cell(value, 6);
     for (double value : activation) row += cell(value, 6);
     if (options_.emg)

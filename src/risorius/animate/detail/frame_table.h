@@ -4,10 +4,10 @@
 ///
 ///   frame, time_s
 ///   excitation.<column>, activation.<column>    ratio, every column of the rig
-///   emg:<column>                                with emg: what electrodes would record, ratio of the maximum
+///   emg:<column>                                with emg: simulated surface EMG, ratio of the maximum
 ///   AU1.l ... AU66                              intensity of each action unit in the script, ratio; track/unit_intensity.h
 ///   jaw_open ... tongue_out                     kinematic channels, in the units of their names
-///   jaw_turn_deg, incisor_opening_mm, condyle_slide_mm, incisor_side_mm    pose of the jaw, whatever moves it: rotation about the
+///   jaw_turn_deg, incisor_opening_mm, condyle_slide_mm, incisor_side_mm    pose of the jaw, from channels or muscles: rotation about the
 ///                     hinge, lower incisors along the opening path, condyles forwards, lower incisors to the left
 ///   tooth_force_n     force on all teeth when muscles move the jaw, else 0
 ///   lip_aperture_mm   inner upper to inner lower lip, stos - stoi
@@ -42,11 +42,13 @@ struct FrameTableOptions {
     bool photodiode = false;
 };
 
+/// Collects the rows of the table.
 class FrameTable {
   public:
     FrameTable(const track::ChannelTable& channels, const scene::LandmarkPoints& points,
                const track::UnitIntensity& units, FrameTableOptions options);
 
+    /// Adds the row of a frame, without its picture.
     void add(int frame, double time_s, const track::Drive& drive, const Eigen::VectorXd& activation,
              const face::FacePose& pose);
     /// Adds measures of the picture of the next frame, in order. May be called on another thread than add(). `within`: luminance in

@@ -13,7 +13,7 @@ MarkedPictures::MarkedPictures(const SyncMarks& marks, const track::ScriptDescri
         photodiode_ = media::corner_named(*marks.photodiode, option_name("photodiode"));
     if (marks.frame_counter)
         counter_ = media::corner_named(*marks.frame_counter, option_name("frame_counter"));
-    constexpr double kRounding = 1e-9;  // for rounding of times
+    constexpr double kRounding = 1e-9;  // tolerance for rounding of times
     const auto note = [&](double start_s) {
         event_frames_.push_back(static_cast<int>(std::ceil(start_s * fps - kRounding)));
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Another script, simulated on the same rig at the same times: where each vertex is in that run.
+/// Another script, simulated on the same rig at the same times, to compare vertex positions with.
 #pragma once
 
 #include <memory>

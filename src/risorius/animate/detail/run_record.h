@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The record of a run: its inputs with their checksums, its settings and how the solver did. With it the same frames can be made
-/// again and compared. It is written as OUT.json. Only "timing" may differ between two runs of one script.
+/// The record of a run: its inputs with their checksums, its settings and statistics of the solver. From it, the same frames can
+/// be made again and compared. It is written as OUT.json. Only "timing" may differ between two runs of one script.
 #pragma once
 
 #include <filesystem>
@@ -39,6 +39,7 @@ struct RunTiming {
     double build_s = 0, simulate_s = 0, draw_s = 0, encode_s = 0, total_s = 0;
 };
 
+/// The content of OUT.json.
 struct RunRecord {
     InputFile script, rig, mesh;
     std::optional<InputFile> shapes;    ///< the blend shapes, when they played the script
@@ -51,11 +52,11 @@ struct RunRecord {
     std::string camera, show, background;
     std::optional<double> scale_to;  ///< where the colours of strain (ratio) or error (mm) end
     double shutter_deg = 0;
-    int shutter_moments = 1;  ///< moments whose mean is a frame
+    int shutter_moments = 1;  ///< number of moments that are averaged per frame
     std::string graphics;     ///< render::gl_in_use()
     std::string quality;
     int antialiasing = 2;           ///< samples per pixel and side
-    std::string jaw;                ///< what moves it: "channels" or "muscles"
+    std::string jaw;                ///< "channels" or "muscles", whichever moves the jaw
     double max_jaw_opening_mm = 0;  ///< between the incisors, over all frames
     double max_tooth_force_n = 0;   ///< on all teeth together, when muscles move the jaw
     int nodes = 0, tets = 0, dropped_tets = 0, fibres = 0;

@@ -8,13 +8,14 @@ namespace risorius::blendshapes {
 
 namespace {
 
-constexpr double kFadesWith = 0.05;  // of a shape's motion that another has too
+// Fades with shapes that share more than this fraction of its motion
+constexpr double kFadesWith = 0.05;
 
-// Mean squares of drivers, where weights are anything from 0 to 1: of a part of a shape's way (the mean of 36 w^4 (1 - w)^4), and what
-// w^2 (1 - w)^2 is of w^2.
+// Mean squares of drivers for uniformly distributed weights: of a part of a shape's path (the mean of 36 w^4 (1 - w)^4), and the
+// ratio of w^2 (1 - w)^2 to w^2.
 constexpr double kSquareOfPart = 2.0 / 35.0, kSquareOfFading = 0.1;
 
-// What a shape lacks a quarter, a half and three quarters of its way, as parts of it (blendshapes/detail/blend_shape_rig.h).
+// Converts the errors of a shape at weights 1/4, 1/2 and 3/4 to fields of the parts of its path (blend_shape_rig.h).
 std::array<Points, 3> parts_of_way(const std::array<const Points*, 3>& lacking) {
     Eigen::Matrix3d values;
     for (int at = 0; at < 3; ++at)
@@ -58,7 +59,7 @@ std::vector<Unit> units_of(const MadeShapes& shapes, const track::ChannelTable& 
     std::vector<Unit> out;
     for (std::size_t i = 0; i < shapes.list.size(); ++i) {
         const ShapeGoal& goal = shapes.list[i].goal;
-        // Its like is solved with what it lies on already; a right half comes with the left one
+        // A shape on top of another is solved together with it; a right half is added with its left half.
         if (goal.on_top_of >= 0 || (goal.sides == Sides::kHalves && !goal.left)) continue;
         Unit unit{
             goal.whole, {static_cast<int>(i)}, goal.drive, shapes.list[i].shape.dense(vertices)};
@@ -91,7 +92,7 @@ DriverMaker::DriverMaker(const rig::Head& head, const MadeShapes& shapes,
 
 void DriverMaker::add_way(const Unit& unit, const Points& lacks, const SolvedPose& quarter,
                           const SolvedPose& three_quarters) {
-    // A pose that did not come to rest: as if it went there in an even bend
+    // For a pose that did not reach equilibrium: the error is interpolated, as if the path were a parabola.
     const auto lacking_at = [&](const SolvedPose& pose, double weight) {
         return pose.figures.converged ? Points(pose.moved - weight * unit.field)
                                       : Points(0.75 * lacks);
@@ -120,7 +121,8 @@ void DriverMaker::add_pair(const Unit& a, const Unit& b, const Points& lacks,
                            const PairPoses& poses) {
     const std::size_t one_sided = terms_.size();
     if (poses.one_sided) add_one_sided(a, b, lacks, poses.one_sided);
-    // Of a b, a b (1 - a), a b (1 - b) and a b (1 - a) (1 - b), where shapes on their way and pairs on one side have their say too
+    // Fields of the drivers a b, a b (1 - a), a b (1 - b) and a b (1 - a) (1 - b), less what the drivers of paths and one-sided
+    // pairs give.
     std::array<Points, 4> field;
     field[0] = lacks;
     for (std::size_t k = 0; poses.on_its_way && k < kPairsOnTheirWay.size(); ++k) {
@@ -160,13 +162,13 @@ void DriverMaker::add_pair(const Unit& a, const Unit& b, const Points& lacks,
     }
 }
 
-// What a pair lacks of which one shape, or both, are there on one side only, when it is taken for that side's half of both. Each goes
-// as the other side comes.
+// Drivers for the error of a pair with one or both shapes on one side only, relative to that side's half of the symmetric pair.
+// Each fades as the other side is added.
 void DriverMaker::add_one_sided(const Unit& a, const Unit& b, const Points& lacks,
                                 const SolvedPose* poses) {
     const auto halves =
         blendshapes::left_and_right(head_.vertices, lacks, head_.mm(kSharedStrip_mm));
-    std::array<Points, 2> known;  // of each side, what the ones that are alone by themselves lack
+    std::array<Points, 2> known;  // per side: known errors of the versions with one one-sided shape
     for (Points& one : known) one = Points::Zero(lacks.rows(), 3);
     const std::vector<OneSidedPair> pairs = one_sided_pairs(a, b);
     for (std::size_t k = 0; k < pairs.size(); ++k) {

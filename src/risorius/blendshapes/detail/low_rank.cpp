@@ -14,14 +14,17 @@ namespace risorius::blendshapes {
 
 namespace {
 
-constexpr double kMoved_m = 2e-5;  // what frames lack by less is not fitted where no field moves
-constexpr double kOfLargest =
-    1e-3;  // smaller singular values than this share of the largest are left out
-constexpr double kOfOthers = 0.1;      // frames of any kind against those that are given
-constexpr double kCoarser = 1.2;       // where there is no room
-constexpr double kShareCounts = 1e-3;  // of a driver in a corrective, against its largest
+// Smaller errors of frames are not fitted where no field moves the vertex
+constexpr double kMoved_m = 2e-5;
+// Smaller singular values, relative to the largest, are dropped
+constexpr double kOfLargest = 1e-3;
+constexpr double kOfOthers = 0.1;  // weight of the use in general, relative to the given frames
+// Factor by which the fade is enlarged while the budget is exceeded
+constexpr double kCoarser = 1.2;
+// Smaller factors of drivers in a corrective, relative to its largest, are dropped
+constexpr double kShareCounts = 1e-3;
 
-/// Fields of the vertices that any of them moves, one below the other.
+/// Fields at the vertices that at least one of them moves, stacked in columns.
 struct Stack {
     std::vector<int> vertex;
     Eigen::MatrixXd column;  ///< 3 rows per vertex
@@ -62,14 +65,14 @@ Eigen::MatrixXd drivers_in(const std::vector<PlayedFrame>& frames,
 }
 
 void fit(Stack& stack, const std::vector<PlayedFrame>& frames, const Eigen::MatrixXd& drivers,
-         double price) {
+         double ridge_weight) {
     if (frames.empty()) return;
     Eigen::MatrixXd left(stack.column.rows(), static_cast<long>(frames.size()));
     for (std::size_t f = 0; f < frames.size(); ++f)
         left.col(static_cast<long>(f)) = rows_of(frames[f].left, stack.vertex);
     left.noalias() -= stack.column * drivers.transpose();
     Eigen::MatrixXd normal = drivers * drivers.transpose();
-    normal.diagonal().array() += price;
+    normal.diagonal().array() += ridge_weight;
     stack.column.noalias() += left * normal.ldlt().solve(drivers);
 }
 
@@ -89,7 +92,7 @@ HalfCorrectives side_of(const Stack& stack, bool left, const Points& rest,
         half.middleRows<3>(3 * static_cast<long>(i)) *= left ? fraction : 1 - fraction;
         root.segment<3>(3 * static_cast<long>(i)).setConstant(root_area[stack.vertex[i]]);
     }
-    // Singular vectors on the right of  root half root_use: there are far fewer drivers than vertices
+    // Right singular vectors of  root half root_use, from the small Gram matrix: there are far fewer drivers than vertices.
     const Eigen::MatrixXd weighted = root.asDiagonal() * half * root_use.asDiagonal();
     Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(half.cols(), half.cols());
     gram.selfadjointView<Eigen::Lower>().rankUpdate(weighted.transpose());
@@ -104,12 +107,12 @@ HalfCorrectives side_of(const Stack& stack, bool left, const Points& rest,
     out.of_drivers.resize(count, all);
     for (long c = 0; c < count; ++c) {
         Eigen::VectorXd right = eigen.vectors.col(all - 1 - c);
-        // A singular vector has no sign of its own: its largest number is positive
+        // The sign of a singular vector is arbitrary; its largest entry is made positive.
         Eigen::Index where;
         right.cwiseAbs().maxCoeff(&where);
         if (right[where] < 0) right = -right;
         Eigen::VectorXd fractions = right.cwiseQuotient(root_use);
-        // So that its greatest weight in use is 1
+        // Normalized to a maximum weight of 1 in use.
         double max = right.cwiseAbs().maxCoeff();
         if (frames.rows() > 0) max = std::max(max, (frames * fractions).cwiseAbs().maxCoeff());
         const Eigen::VectorXd field = max * (half * root_use.cwiseProduct(right));
@@ -137,7 +140,7 @@ LowRank low_rank(std::vector<DriverField> fields, const std::vector<PlayedFrame>
     if (fields.empty()) return out;
     Stack stack = stacked(fields, frames, rest.rows());
     const Eigen::MatrixXd drivers = drivers_in(frames, fields);
-    fit(stack, frames, drivers, how.price);
+    fit(stack, frames, drivers, how.ridge_weight);
 
     Eigen::VectorXd use(static_cast<long>(fields.size()));
     for (std::size_t t = 0; t < fields.size(); ++t)
@@ -149,7 +152,7 @@ LowRank low_rank(std::vector<DriverField> fields, const std::vector<PlayedFrame>
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
         side[k] = side_of(stack, k == 0, rest, root_area, root_use, drivers, how);
 
-    // Of all the same detail, as fine as there is room for
+    // The same fade for all correctives, as fine as the budget allows.
     for (Fade fade = how.fade;; fade.none_m *= kCoarser, fade.all_m *= kCoarser) {
         out.correctives.clear();
         out.bytes = 0;

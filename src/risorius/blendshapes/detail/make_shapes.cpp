@@ -17,20 +17,24 @@ namespace {
 
 using track::Kinematic;
 
-constexpr double kHalfWidth_mm = 15;  // of the strip in the middle of the face that halves share
-constexpr double kClosing = 0.9;      // a lid whose levator has let go by so much is to shut
-constexpr double kPressing = 0.2;     // of orbicularis, likewise
+// Half width of the strip in the middle of the face that halves share
+constexpr double kHalfWidth_mm = 15;
+// An eye is to close when the excitation of its levator falls by this much
+constexpr double kClosing = 0.9;
+constexpr double kPressing = 0.2;  // or when that of its orbicularis rises by this much
 constexpr int kUprightSteps = 12;
-constexpr double kShutLips_m = 1e-3;  // apart at most, where a shape shuts them
-/// Weights at which lips are tried to be shut over the jaw, the widest open first.
+constexpr double kShutLips_m = 1e-3;  // maximum gap of the lips for a shape that closes them
+/// Weights at which closed lips over an open jaw are tried, largest first.
 constexpr std::array<double, 3> kShutTries{0.5, 0.35, 0.2};
 
-/// Which poses have to be found, and which of them are whose.
+/// The poses to solve, and the shapes they belong to.
 struct Plan {
     std::vector<track::Drive> drives;
-    std::vector<std::vector<std::size_t>> own;    ///< per goal; several where several are tried
-    std::vector<std::vector<std::size_t>> under;  ///< likewise, what each lies on; empty elsewhere
-    std::vector<int> whole;                       ///< per goal: of both halves, -1 elsewhere
+    /// Per goal; several where several weights are tried
+    std::vector<std::vector<std::size_t>> own;
+    /// Per goal and try: the pose of the shape below; else empty
+    std::vector<std::vector<std::size_t>> under;
+    std::vector<int> whole;  ///< per goal: pose of both halves together, else -1
 };
 
 track::Drive both(const track::Drive& one, const track::Drive& other,
@@ -46,7 +50,7 @@ track::Drive both(const track::Drive& one, const track::Drive& other,
     return out;
 }
 
-// What shuts, over the jaw of what it shuts. The lips' own muscles of the other are not wanted.
+// The drive `shuts` with the jaw of `opens` times a fraction. The lip muscles of `opens` are not included.
 track::Drive over_jaw(const track::Drive& shuts, const track::Drive& opens, double fraction) {
     track::Drive out = shuts;
     for (const Kinematic k : {Kinematic::kJawOpen, Kinematic::kJawForward, Kinematic::kJawSide})
@@ -87,7 +91,7 @@ Plan plan_of(const ShapeSet& set, const track::ChannelTable& channels) {
     return plan;
 }
 
-// A lid that is let go hangs; it takes orbicularis to shut the eye.
+// Relaxing the levator only makes the lid droop; orbicularis closes the eye.
 bool shuts_eye(const track::Drive& drive, const track::ChannelTable& channels, Side side) {
     const int levator = channels.column("levator_palpebrae_superioris", side),
               orbicularis = channels.column("orbicularis_oculi_palpebral_upper", side);
@@ -95,7 +99,7 @@ bool shuts_eye(const track::Drive& drive, const track::ChannelTable& channels, S
            drive.excitation[orbicularis] >= kPressing;
 }
 
-// Whether either drive is what the other would be on the other side of the face.
+// Whether each drive is the mirror image of the other.
 bool are_mirrored(const track::Drive& one, const track::Drive& other,
                   const track::ChannelTable& channels) {
     constexpr double kSame = 1e-12;
@@ -145,14 +149,14 @@ class Maker {
             if (made.goal.on_top_of >= 0) made.solved_at = kShutTries[chosen];
             solved.push_back(&poses[plan.own[i][chosen]]);
             fields.push_back(solved.back()->moved);
-            // What lies on top is what it does to the other one with the jaw where it is
+            // A shape on top of another is the difference from that one, with the jaw in the same position.
             if (made.goal.on_top_of >= 0)
                 fields.back() =
                     (fields.back() - poses[plan.under[i][chosen]].moved) / made.solved_at;
             made.eye_rotation = solved.back()->eye_rotation;
             made.certificate.asymmetry_as_solved_m = as_solved[plan.own[i][chosen]];
         }
-        // Each pair of halves becomes one of its whole
+        // Halves are corrected so that their sum is the whole.
         for (std::size_t i = 0; i < set_.goals.size(); ++i)
             if (plan.whole[i] >= 0)
                 blendshapes::share_the_rest(
@@ -175,8 +179,8 @@ class Maker {
     }
 
   private:
-    // A pose that leans to one side where drive and head do not has buckled on its way; it is sought again in small steps, and the
-    // one that leans less is taken.
+    // A symmetric drive on a symmetric head may give an asymmetric pose, because the tissue has buckled. Such a pose is solved
+    // again in small steps, and the less asymmetric one is used.
     void keep_upright(const Plan& plan, std::vector<SolvedPose>& poses,
                       const ProgressMonitor& monitor) const {
         if (!mirror_) return;
@@ -199,8 +203,8 @@ class Maker {
                 poses[leaning[k]] = std::move(again[k]);
     }
 
-    // Poses that are mirror images by what drives them become so to the bit: each the mean of itself and of the other's mirror image.
-    // Between two ways to buckle lies the pose that does not. Tells how far each was from being one.
+    // Makes poses with mirrored drives exact mirror images: each becomes the mean of itself and of the mirror image of the other.
+    // The mean of two ways to buckle is a pose that has not buckled. Returns the asymmetry of each pose before.
     std::vector<std::optional<double>> mirror_poses(const Plan& plan,
                                                     std::vector<SolvedPose>& poses) const {
         std::vector<std::optional<double>> out(poses.size());
@@ -237,7 +241,7 @@ class Maker {
         return gap(head_.vertices + moved) - gap(head_.vertices);
     }
 
-    // Of several tries the first that shuts the lips, or the one that comes nearest to it.
+    // Of several tries, the first that closes the lips, or else the one with the smallest gap.
     std::size_t choose(const std::vector<std::size_t>& tries,
                        const std::vector<SolvedPose>& poses) const {
         if (tries.size() == 1) return 0;

@@ -27,10 +27,10 @@ class Dice {
 
 constexpr std::array kUnits{1,  2,  4,  5,  6,  7,  9,  10, 11, 12, 13, 14, 15, 16,
                             17, 18, 20, 22, 23, 24, 25, 26, 27, 28, 38, 39, 43};
-constexpr double kEvery_s = 0.5;    // on average a unit begins
-constexpr double kBothSides = 0.8;  // of those that have sides
+constexpr double kEvery_s = 0.5;    // mean time between onsets
+constexpr double kBothSides = 0.8;  // probability for units with two sides
 
-// Of degrees of one thing, or opposites: one at a time.
+// Units that exclude each other, because they are degrees or opposites of one action, share a number.
 int alternatives(int unit) {
     switch (unit) {
         case 25:
@@ -70,7 +70,7 @@ struct Event {
 
 std::vector<Event> random_events(double duration_s, Dice& dice) {
     std::vector<Event> out;
-    // It has begun before the first frame
+    // The track starts before the first frame.
     for (double t_s = -2;;) {
         t_s -= kEvery_s * std::log(1 - dice.fraction());
         if (t_s > duration_s) return out;
@@ -105,12 +105,12 @@ std::vector<Eigen::VectorXd> random_weights(const MadeShapes& shapes, int frames
             const std::size_t i = dice.index(shapes.list.size());
             const ShapeGoal& goal = shapes.list[i].goal;
             const double weight = shapes.list[i].solved_at * dice.fraction();
-            const bool both =
-                dice.fraction() < 0.7;  // faces are more often alike on both sides than not
+            // Faces are more often symmetric than not
+            const bool both = dice.fraction() < 0.7;
             if (goal.sides == Sides::kOpposed && weights[goal.partner] != 0) continue;
             weights[static_cast<long>(i)] = weight;
             if (goal.sides == Sides::kHalves && both) weights[goal.partner] = weight;
-            // What shuts lips over an open jaw goes as far as the jaw
+            // A shape that closes the lips over an open jaw has the weight of the open jaw.
             if (goal.on_top_of >= 0)
                 weights[goal.on_top_of] = std::max(weights[goal.on_top_of], weight);
         }

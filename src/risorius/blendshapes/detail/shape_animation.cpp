@@ -18,7 +18,7 @@ constexpr const char* kTurns[] = {"HeadYaw",     "HeadPitch",     "HeadRoll",
                                   "LeftEyeYaw",  "LeftEyePitch",  "LeftEyeRoll",
                                   "RightEyeYaw", "RightEyePitch", "RightEyeRoll"};
 
-// "00:00:01:29.000": hours, minutes, seconds, frame and part of it
+// "00:00:01:29.000": hours, minutes, seconds, frame and fraction of the frame
 std::string timecode(long frame, int fps) {
     const long seconds = frame / fps;
     char text[96];

@@ -14,20 +14,22 @@
 
 namespace risorius::blendshapes {
 
+/// Weights and poses of a script, frame by frame.
 struct ShapeAnimation {
     std::string name;
     int fps = 60;
     std::vector<std::string> shapes;
     Eigen::MatrixXd weights;           ///< frames x shapes, [0, 1]
-    std::vector<track::Drive> drives;  ///< per frame, for the pose of head and eyes
+    std::vector<track::Drive> drives;  ///< one per frame, for the pose of head and eyes
 };
 
-/// Converts the frames of a script to weights of `goals`: muscles follow their drive as in a render, and the face is in equilibrium.
+/// Converts the frames of a script to weights of `goals`. Muscles follow their drive as in a render, and the face is in
+/// equilibrium in every frame.
 ShapeAnimation bake_script(const std::filesystem::path& script, const scene::RigFiles& files,
                            const std::vector<ShapeGoal>& goals, const ShapeWeights& weights);
 
-/// A table of Live Link Face: a row per frame, the 52 shapes of ARKit in its order, then how head and eyes are turned, rad. Throws
-/// Error when the animation is not of those shapes.
+/// A table in the format of Live Link Face: one row per frame with the 52 shapes of ARKit in its order, followed by the rotations
+/// of head and eyes, rad. Throws Error when the animation has other shapes.
 std::string live_link_table(const ShapeAnimation& animation);
 
 }  // namespace risorius::blendshapes

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Measures of the physical quality of a blend shape, on its simulated pose and on the displaced mesh: change of volume, penetration, gaps
-/// of closed eyes, symmetry.
+/// Physical quality measures of a blend shape, taken on its simulated pose and on the displaced mesh: change of volume,
+/// penetration, gap of closed eyes, symmetry.
 #pragma once
 
 #include <optional>
@@ -16,21 +16,22 @@ namespace risorius::blendshapes {
 /// Limits of a certificate.
 struct ShapeLimits {
     double volume_ratio = 0.02;     ///< change of the tissue's volume
-    double penetration_m = 0.3e-3;  ///< lip in lip, skin in eye
+    double penetration_m = 0.3e-3;  ///< of lip in lip, and of skin in the eye
     double lid_gap_m = 0.3e-3;      ///< gap that a blink leaves
-    double asymmetry_m = 0.2e-3;    ///< on a head that is its own mirror image
+    double asymmetry_m = 0.2e-3;    ///< on a symmetric head
 };
 
+/// Measured values of one shape.
 struct ShapeCertificate {
-    double volume_change = 0;  ///< ratio, of all tissue
+    double volume_change = 0;  ///< of all tissue, ratio
     double lip_depth_m = 0;    ///< largest penetration of lip in lip beyond that at rest
-    double bone_depth_m =
-        0;  ///< penetration of tissue in bone and teeth, whose surfaces are estimated
-    double eye_depth_m = 0;             ///< of skin in the eyes
+    /// Penetration of tissue into bone and teeth, whose surfaces are estimates
+    double bone_depth_m = 0;
+    double eye_depth_m = 0;             ///< penetration of skin into the eyes
     std::optional<double> lid_gap_m;    ///< only for shapes that close the eye
     std::optional<double> lip_gap_m;    ///< only for shapes that close the mouth over an open jaw
-    std::optional<double> asymmetry_m;  ///< of a shape, or of it and its namesake
-    /// The asymmetry before both sides were made mirror images: large where lips have buckled to one side.
+    std::optional<double> asymmetry_m;  ///< of a shape, or of it and its namesake on the other side
+    /// The asymmetry before mirroring. It is large when the lips have buckled to one side.
     std::optional<double> asymmetry_as_solved_m;
     blendshapes::Stretch stretch;  ///< of the simulated skin
     double peak_m = 0;             ///< largest displacement
@@ -38,7 +39,7 @@ struct ShapeCertificate {
     bool converged = true;
     int inverted_tets = 0;
 
-    /// The values beyond their limits in words; empty when there are none.
+    /// Descriptions of the values beyond their limits; empty when there are none.
     std::vector<std::string> complaints(const ShapeLimits& limits = {}) const;
     Json json() const;  ///< lengths in mm
 };

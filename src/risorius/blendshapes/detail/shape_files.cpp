@@ -22,7 +22,7 @@ const Vec3 kScleraColour(0.93, 0.91, 0.89), kTeethColour(0.90, 0.87, 0.78),
     kGumsColour(0.78, 0.45, 0.44), kTongueColour(0.76, 0.44, 0.42), kMouthColour(0.55, 0.26, 0.25),
     kPupilColour(0.02, 0.02, 0.02);
 
-// The colour of the iris round the axis the eye looks along.
+// Colours the iris, found around the optical axis.
 void tint_eye(const rig::EyeGeometry& eye, const rig::EyesDescription& sizes,
               const rig::AppearanceDescription& appearance, double size, const Points& vertices,
               Points& tint) {
@@ -37,7 +37,7 @@ void tint_eye(const rig::EyeGeometry& eye, const rig::EyesDescription& sizes,
     }
 }
 
-/// Of a role; false for what is not to be seen.
+/// Name and colours of a role; false for a role that is not shown.
 bool describe_part(const std::string& role, const scene::RigFiles& files, const rig::Head& head,
                    io::MorphPart& part) {
     const rig::AppearanceDescription& appearance = files.rig.appearance;
@@ -74,7 +74,7 @@ bool describe_part(const std::string& role, const scene::RigFiles& files, const 
     return true;
 }
 
-// Of a shape's vertex, mesh units.
+// Displacement of a vertex of a shape, mesh units.
 Vec3 in_mesh_units(const rig::Head& head, const blendshapes::SparseShape& shape, std::size_t i) {
     return head.frame.rotation.transpose() * shape.delta.row(static_cast<long>(i)).transpose() /
            head.frame.metres_per_unit;

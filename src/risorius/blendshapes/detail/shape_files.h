@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Writes blend shapes to files: glTF, OBJ, and the plain table that `evaluate` reads too.
+/// Writes blend shapes to files: glTF, OBJ, and the table that `risorius evaluate` reads.
 #pragma once
 
 #include <filesystem>
@@ -16,26 +16,27 @@
 
 namespace risorius::blendshapes {
 
-/// Parts by role, in the colours of the rig's appearance; shapes as morph targets. The extras name the rig and the set. Correctives follow
-/// after the shapes; their drivers are listed under "correctives" of the extras. `animation` may be null.
+/// A model with parts by role in the colours of the rig's appearance, and the shapes as morph targets. Correctives follow the
+/// shapes; the extras hold the rig, the set, and the drivers of the correctives under "correctives". `animation` may be null.
 io::MorphModel morph_model(const scene::RigFiles& files, const rig::Head& head,
                            const MadeShapes& shapes, const std::string& set,
                            const blendshapes::BlendShapeRig& linear,
                            const ShapeAnimation* animation);
 
-/// folder/cache.json and cache.f32: every vertex in every frame of the animation, mesh units, from the blend shape rig.
+/// Writes folder/cache.json and folder/cache.f32: every vertex in every frame of the animation, in mesh units, by the blend shape
+/// rig. Returns the names of the files.
 std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const rig::Head& head,
                                             const blendshapes::BlendShapeRig& linear,
                                             const ShapeAnimation& animation,
                                             const std::filesystem::path& folder);
 
-/// folder/shapes.json and shapes.f32, see docs/formats/measured-shapes.md, with the activations that made each shape: mesh units,
-/// vertices in the mesh file's order. Returns the names of the files.
+/// Writes folder/shapes.json and folder/shapes.f32 (docs/formats/measured-shapes.md) with the activations that made each shape,
+/// in mesh units, with the vertices in the order of the mesh file. Returns the names of the files.
 std::vector<std::string> write_shape_table(const scene::RigFiles& files, const rig::Head& head,
                                            const MadeShapes& shapes,
                                            const std::filesystem::path& folder);
 
-/// folder/obj/NAME.obj: the mesh as imported with the shape at weight 1; vertices that do not move have the very numbers
+/// Writes folder/obj/NAME.obj: the mesh as imported with the shape at weight 1. Vertices that do not move keep the exact numbers
 /// of the import. Returns the names of the files.
 std::vector<std::string> write_shape_objs(const scene::RigFiles& files, const rig::Head& head,
                                           const MadeShapes& shapes,

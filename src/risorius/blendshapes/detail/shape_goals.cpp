@@ -15,8 +15,8 @@ namespace {
 
 using track::Kinematic;
 
-constexpr double kPuff_pa = 1500;     // of a mouth pressure by itself
-constexpr double kSideGaze_deg = 30;  // of an eye that turns by itself
+constexpr double kPuff_pa = 1500;     // pressure of a shape that puffs the cheeks
+constexpr double kSideGaze_deg = 30;  // rotation of an eye in a gaze shape
 constexpr double kUprightGaze_deg = 25;
 
 double& channel(track::Expansion& drive, Kinematic k) {
@@ -28,7 +28,7 @@ bool turns_head(int k) {
     return channel >= Kinematic::kHeadYaw && channel <= Kinematic::kHeadSide;
 }
 
-// Names of both sides, in the ways that ARKit and the rig's own channels have.
+// Names of a pair of sides, by the conventions of ARKit and of the rig's own channels.
 struct Namesakes {
     std::string left, right, whole;
 };
@@ -64,7 +64,7 @@ class Collector {
         set_.left_out.emplace_back(name, why);
     }
 
-    /// Halves are told by what they do: either has nothing of the other's side, nor takes the jaw there.
+    /// Finds partners. Two namesakes are halves when neither drives muscles of the other side or moves the jaw sideways.
     void pair_up() {
         for (std::size_t i = 0; i < set_.goals.size(); ++i) {
             ShapeGoal& goal = set_.goals[i];
@@ -96,7 +96,7 @@ class Collector {
     ShapeSet& set_;
 };
 
-// What such a muscle does, channels do for it while they place the jaw.
+// Whether a muscle only moves the jaw. Its effect is given by the jaw channels.
 bool moves_jaw_alone(const rig::RigDescription& rig, const std::string& id) {
     if (rig.solid(id)) return false;
     for (const rig::Muscle& muscle : rig.muscles.muscles)
@@ -117,7 +117,7 @@ void collect_units(const rig::RigDescription& rig, Collector& out) {
             continue;
         }
         bool of_face = std::any_of(unit.muscles.begin(), unit.muscles.end(),
-                                   [&](const track::MuscleShare&fraction) {
+                                   [&](const track::MuscleFraction&fraction) {
                                        return !moves_jaw_alone(rig, fraction.muscle);
                                    }),
              of_head = false;
@@ -154,7 +154,7 @@ void collect_muscles(const rig::RigDescription& rig, Collector& out) {
                 drive.excitation[channels.column(muscle.id, side)] = value;
                 const std::string name =
                     muscle.id + ending + (muscle.paired ? (side == Side::kLeft ? ".l" : ".r") : "");
-                // Muscles of the jaw move nothing while channels place it
+                // Jaw muscles have no effect while channels place the jaw.
                 if (moves_jaw_alone(rig, muscle.id))
                     out.leave_out(name, "moves the jaw, which channels place");
                 else
@@ -183,7 +183,7 @@ void collect_muscles(const rig::RigDescription& rig, Collector& out) {
     }
 }
 
-// Lips that are shut over an open jaw: the shape is what shuts them.
+// For lips that are closed over an open jaw: marks the shape that closes them as lying on top of the open jaw.
 void put_on_top(ShapeSet& set) {
     const auto shut = set.index("mouthClose"), open = set.index("jawOpen");
     if (shut && open) set.goals[static_cast<std::size_t>(*shut)].on_top_of = *open;
@@ -204,7 +204,7 @@ void keep_only(const std::vector<std::string>& only, ShapeSet& set, const std::s
             if (goal.name != name && goal.whole != name) continue;
             found = true;
             wanted[i] = 1;
-            // A half is found with its other half, a corrective with what it corrects
+            // A half needs its other half, and a corrective the shape that it corrects.
             if (goal.sides == Sides::kHalves) wanted[static_cast<std::size_t>(goal.partner)] = true;
             if (goal.on_top_of >= 0) wanted[static_cast<std::size_t>(goal.on_top_of)] = true;
         }
@@ -255,7 +255,7 @@ ShapeSet shape_set(const rig::RigDescription& rig, const std::string& name,
     } else {
         collect_muscles(rig, out);
     }
-    // Twice: pairs are indices, and those change when only some shapes are kept
+    // Partners are indices, which changed when shapes were removed, so they are found again.
     out.pair_up();
     put_on_top(set);
     keep_only(only, set, only_from);

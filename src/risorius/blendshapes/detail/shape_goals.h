@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The blend shapes of a set: their names, what drives each, and how they belong together.
+/// The blend shapes of a set: their names, their drives and their relations.
 ///
 ///   arkit52   the 52 names of ARKit face tracking, by the rig's own table
 ///   facs      every action unit of the rig's table that moves the face, .l and .r where it has sides
-///   muscles   every muscle at full activation by itself, and the channels that no muscle drives
+///   muscles   each muscle alone at full activation, and the channels that no muscle drives
 ///   visemes   the mouth shapes of speech, by the rig's own table
 #pragma once
 
@@ -18,27 +18,30 @@
 
 namespace risorius::blendshapes {
 
-/// How a shape and its namesake on the other side belong together.
+/// Relation of a shape to its namesake on the other side.
 enum class Sides {
-    kNone,     ///< there is none
-    kHalves,   ///< both together form one expression: a smile
-    kOpposed,  ///< mirror images that are not meant to be used together: the jaw to one side
+    kNone,    ///< no namesake
+    kHalves,  ///< both together form one expression, such as a smile
+    /// Mirror images that are not meant to be used together, such as the jaw to one side
+    kOpposed,
 };
 
+/// A shape to make.
 struct ShapeGoal {
     std::string name;
     track::Drive drive;  ///< at weight 1
     Sides sides = Sides::kNone;
     int partner = -1;    ///< index of the namesake
-    bool left = false;   ///< of the two
+    bool left = false;   ///< whether it is the left one
     int on_top_of = -1;  ///< index of the shape it corrects, at the same weight
-    std::string whole;  ///< name of both halves together, "mouthSmile"; its own name without halves
+    /// Name of both halves together, such as "mouthSmile"; the shape's own name if it has no halves
+    std::string whole;
 };
 
 struct ShapeSet {
     std::string name;
     std::vector<ShapeGoal> goals;
-    /// Entries of the table that cannot be shapes: name, reason.
+    /// Entries of the table that cannot be made into shapes: name and reason.
     std::vector<std::pair<std::string, std::string>> left_out;
 
     std::optional<int> index(const std::string& name) const;
@@ -46,8 +49,9 @@ struct ShapeSet {
 
 const std::vector<std::string>& shape_set_names();
 
-/// `only`: names of shapes or wholes to keep; empty: all. Throws Error naming `place` for a set that is unknown, or that
-/// the rig's tables do not have, and naming `only_from`, where `only` was read, for a name that the set does not have.
+/// Makes the goals of a set. `only`: names of shapes or wholes to keep; empty: all. Throws Error naming `place` for a set that is
+/// unknown or missing in the tables of the rig, and naming `only_from`, the source of `only`, for a name that the set does not
+/// have.
 ShapeSet shape_set(const rig::RigDescription& rig, const std::string& set,
                    const std::vector<std::string>& only, const std::string& place,
                    const std::string& only_from = option_name("only"));

@@ -9,9 +9,9 @@
 namespace risorius::blendshapes {
 
 Stretch stretch_of(const Triangles& triangles, const Points& rest, const Points& moved) {
-    constexpr double kSliver = 1e-3;  // height / side of a triangle that says nothing
+    constexpr double kSliver = 1e-3;  // height over side below which a triangle is ignored
     Stretch out;
-    std::vector<std::pair<double, double>> by_stretch;  // with its area
+    std::vector<std::pair<double, double>> by_stretch;  // stretch and area of each triangle
     double area = 0;
     for (long f = 0; f < triangles.rows(); ++f) {
         const auto edge = [&](const Points& points, int k) -> Vec3 {
@@ -21,7 +21,7 @@ Stretch stretch_of(const Triangles& triangles, const Points& rest, const Points&
         const double twice_area = a.cross(b).norm(),
                      longest = std::max({a.squaredNorm(), b.squaredNorm(), (a - b).squaredNorm()});
         if (twice_area <= kSliver * longest) continue;
-        // Two coordinates in the triangle's plane at rest
+        // Coordinates in the plane of the rest triangle
         const Vec3 u = a.normalized(), w = a.cross(b).normalized().cross(u);
         Eigen::Matrix2d flat;
         flat << a.dot(u), b.dot(u), a.dot(w), b.dot(w);

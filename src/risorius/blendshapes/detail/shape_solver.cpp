@@ -10,10 +10,11 @@ namespace {
 
 constexpr int kSmallSteps = 6;
 
-// Of an equilibrium. Asked of shapes is a tenth of a millimetre, and on the adult no vertex is off by more than .05 mm with
-// these where contact lets the pose come to rest at all; a hundred times less takes half as many iterations again.
-constexpr int kIterations = 400;      // hardly any pose that has not come to rest then ever will
-constexpr int kIterationsOnce = 250;  // of poses that are not tried again
+// Iteration limits of an equilibrium. Shapes should be accurate to a tenth of a millimetre. On the adult, no vertex is off by
+// more than 0.05 mm with these limits, provided that contact allows an equilibrium; a tolerance a hundred times smaller takes
+// half as many iterations again.
+constexpr int kIterations = 400;      // poses without convergence by then hardly ever converge
+constexpr int kIterationsOnce = 250;  // for poses that are not solved again
 constexpr double kTolerance_m = 0.05e-3, kPlanes_m = 0.1e-3;
 
 track::Drive at_rest(const track::ChannelTable& channels) {
@@ -93,7 +94,7 @@ std::vector<SolvedPose> ShapeSolver::solve(const std::vector<track::Drive>& driv
     SpareThreads spare(ThreadLimit(threads_).count() - 1);
     parallel_for(static_cast<int>(drives.size()), {threads_, &spare}, [&](int i) {
         monitor.throw_if_stopped();
-        // It starts from rest and knows nothing of what it was used for before
+        // The face is reset to rest, so its previous use does not matter.
         face::Face& face = idle();
         const auto at = static_cast<std::size_t>(i);
         out[at] = pose(face, drives[at], how, monitor.stopped);

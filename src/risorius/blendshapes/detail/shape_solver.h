@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Solves the poses of a face in equilibrium with a list of drives, several at a time. Each starts from rest, so the results depend only on
-/// the drive, not on the number of threads or the order.
+/// Solves the equilibrium poses of a face for a list of drives, several at a time. Each pose starts from rest, so results depend
+/// only on the drive, not on the number of threads or the order.
 #pragma once
 
 #include <array>
@@ -17,47 +17,50 @@
 
 namespace risorius::blendshapes {
 
+/// The equilibrium pose of a drive.
 struct SolvedPose {
     Points moved;  ///< displacement of every vertex, V x 3, m, head frame
     std::array<Mat3, 2> eye_rotation{Mat3::Identity(), Mat3::Identity()};
     face::StepStats figures;
-    double volume_ratio = 1;  ///< volume of the tissue / that at rest
+    double volume_ratio = 1;  ///< volume of the tissue over that at rest
     int inverted_tets = 0;
 };
 
-/// How a pose is reached from rest.
+/// How the solver goes from rest to the drive.
 struct Approach {
-    int steps = 1;      ///< number of equal steps
-    bool again = true;  ///< tries again in small steps when it did not converge
+    int steps = 1;      ///< number of equal load steps
+    bool again = true;  ///< if it does not converge, solve again in small steps
 };
 
+/// Solves poses in parallel with one face per thread.
 class ShapeSolver {
   public:
-    /// Keeps references.
+    /// Keeps references to `files`. Throws Error when the face cannot be built.
     ShapeSolver(const scene::RigFiles& files, const face::Quality& quality, int threads);
     ~ShapeSolver();
 
-    /// Returns the poses in the order of the drives. Throws Interrupted.
+    /// Returns the poses in the order of the drives. Throws Interrupted when the monitor asks to stop.
     std::vector<SolvedPose> solve(const std::vector<track::Drive>& drives,
                                   const ProgressMonitor& monitor, const Approach& how = {}) const;
 
-    /// A face for reading what does not move; it is used for poses too.
+    /// A face to read what does not change; it is also used to solve poses.
     const face::Face& face() const { return *faces_.front(); }
 
-    /// A face of the caller's own.
+    /// A new face that the caller owns.
     std::unique_ptr<face::Face> another() const;
 
   private:
     SolvedPose pose(face::Face& face, const track::Drive& drive, const Approach& how,
                     const std::function<bool()>& stopped) const;
-    face::Face& idle() const;  ///< a face that is not in use
+    face::Face& idle() const;  ///< a face that is not in use; makes one if needed
 
     const scene::RigFiles& files_;
     face::Quality quality_;
     int threads_;
     double rest_volume_m3_;
     mutable std::mutex mutex_;
-    mutable std::vector<std::unique_ptr<face::Face>> faces_;  ///< all faces so far; at least one
+    /// All faces made so far; at least one
+    mutable std::vector<std::unique_ptr<face::Face>> faces_;
     mutable std::vector<face::Face*> idle_;
 };
 

@@ -11,7 +11,7 @@ namespace risorius::blendshapes {
 
 namespace {
 
-constexpr double kWeightPrice = 1e-3;  // of the largest shape's own square
+constexpr double kL1Weight = 1e-3;  // relative to the squared norm of the largest shape
 constexpr double kWeightRidge = 1e-6;
 constexpr int kHoldingTurns = 5;
 
@@ -48,7 +48,7 @@ ShapeWeights::ShapeWeights(face::Face& face, const track::ChannelTable& channels
     for (std::size_t s = 0; s < goals.size(); ++s) {
         S.col(static_cast<long>(s)) = vector_of(goals[s].drive);
         on_top_of_.push_back(goals[s].on_top_of);
-        // It was solved over the jaw of what it lies on, without the muscles of that
+        // It was solved with the jaw of the shape below it, but without that shape's muscles.
         if (on_top_of_[s] >= 0)
             S.col(static_cast<long>(s)).head(channels.column_count()) -=
                 goals[static_cast<std::size_t>(on_top_of_[s])].drive.excitation;
@@ -62,7 +62,7 @@ ShapeWeights::ShapeWeights(face::Face& face, const track::ChannelTable& channels
     problem_.A = by_drive_ * S;
     const double scale = problem_.A.diagonal().maxCoeff();
     problem_.A.diagonal().array() += kWeightRidge * scale;
-    problem_.price = kWeightPrice * problem_.A.diagonal();
+    problem_.l1_weight = kL1Weight * problem_.A.diagonal();
     problem_.min = Eigen::VectorXd::Zero(S.cols());
     problem_.max = Eigen::VectorXd::Ones(S.cols());
 }
@@ -79,7 +79,8 @@ Eigen::VectorXd ShapeWeights::of(const track::Drive& drive) const {
     solve::BoxQuadratic problem = problem_;
     problem.b = -by_drive_ * vector_of(drive);
     Eigen::VectorXd out = Eigen::VectorXd::Zero(problem_.min.size());
-    // What lies on another shape goes no farther than that: once it is held there the other may give way, hence in turns
+    // A shape on top of another may not have a larger weight. Holding it at that weight may reduce the other, so the problem is
+    // solved in turns.
     for (int turn = 0; turn < kHoldingTurns; ++turn) {
         solve::minimise(problem, out, 1e-5);
         bool held = true;

@@ -106,7 +106,7 @@ void write_linear(report::HtmlWriter& html, const ShapesReport& report) {
             for (const std::string& number :
                  {std::to_string(track.frames), rounded(1e3 * track.rms_m, 2),
                   rounded(1e3 * track.max_m, 2), rounded(1e3 * track.plain_rms_m, 2),
-                  rounded(1e3 * track.plain_greatest_m, 2)})
+                  rounded(1e3 * track.plain_max_m, 2)})
                 html.element("td", number, {{"class", "number"}});
             html.close();
         }
@@ -127,7 +127,7 @@ void write_linear(report::HtmlWriter& html, const ShapesReport& report) {
         html.element("th", "sum is wrong by, mm", {{"class", "number"}});
         html.element("th", "RMS, mm", {{"class", "number"}}).element("th", "").close();
         for (const TriedCorrective& one : report.correctives.tried) {
-            if (!one.put_right) continue;
+            if (!one.corrected) continue;
             html.open("tr").element("td", one.name);
             html.element("td", rounded(1e3 * one.max_m, 2), {{"class", "number"}});
             html.element("td", rounded(1e3 * one.rms_m, 2), {{"class", "number"}});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The HTML page of a set of blend shapes: every shape in pictures, its certificate and its drive. It has no scripts and loads nothing from
-/// the network.
+/// The HTML page of a set of blend shapes: pictures, certificate and drive of every shape. It has no scripts and loads nothing
+/// from the network.
 #pragma once
 
 #include <filesystem>
@@ -14,20 +14,21 @@
 
 namespace risorius::blendshapes {
 
+/// Picture files of a set of shapes.
 struct ShapesPictures {
     static constexpr int kWidth_px = 396, kHeight_px = 440;
-    /// Per shape: "front", "three_quarter" and "moved" (how far the skin moves, as colour) -> file.
+    /// Per shape: view -> file. Views are "front", "three_quarter" and "moved" (displacement of the skin as colour).
     std::vector<std::map<std::string, std::string>> shapes;
     std::string sheet;
     std::vector<std::string> files;
 };
 
-/// Written below `folder`; names of files are relative to it.
+/// Draws the pictures and writes them below `folder`; file names are relative to it. Throws Interrupted.
 ShapesPictures draw_shapes(const ShapesReport& report, const scene::RigFiles& files,
                            const rig::Head& head, const std::filesystem::path& folder,
                            const ProgressMonitor& monitor);
 
-/// `pictures` null: only numbers.
+/// The complete page. `pictures` may be null; then it has only numbers.
 std::string shapes_page(const ShapesReport& report, const ShapesPictures* pictures);
 
 }  // namespace risorius::blendshapes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pictures of a set of blend shapes: each from the front and from the side, and how far it moves the skin as colour.
+// Pictures of a set of blend shapes: the front and three-quarter views of each, and its displacement of the skin as colour.
 #include <cstdio>
 #include <limits>
 #include <set>
@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kOnSheet = 0.42;      ///< size of a picture on the sheet, against the single one
-constexpr double kMovedScale_mm = 12;  ///< the colours end there
+constexpr double kOnSheet = 0.42;      ///< size on the sheet, ratio to the single picture
+constexpr double kMovedScale_mm = 12;  ///< end of the colour scale
 constexpr const char* kShapesFolder = "pictures";
 
 render::SkinValues moved_scale() {

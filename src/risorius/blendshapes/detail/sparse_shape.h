@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A blend shape: the displacement of some vertices of a mesh at weight 1. All other vertices do not move.
+/// A blend shape: displacements of some vertices of a mesh at weight 1. All other vertices stay.
 #pragma once
 
 #include <vector>
@@ -11,27 +11,27 @@ namespace risorius::blendshapes {
 
 struct SparseShape {
     std::vector<int> vertex;  ///< ascending
-    Points delta;             ///< one row per vertex above, m
+    Points delta;             ///< one row per entry of `vertex`, m
 
     bool empty() const { return vertex.empty(); }
     void add_to(Points& vertices, double weight) const;
     Points dense(long vertices) const;  ///< V x 3
 };
 
-/// Keeps the rows that are not zero.
+/// The rows of `field` (V x 3) that are not zero.
 SparseShape sparse(const Points& field);
 
-/// Removes displacements below `none_m`, keeps those above `all_m`, with a smooth transition: a field that ended abruptly would show as an
-/// edge. Results below a fifth of `none_m` are removed.
+/// Thresholds of fade_out(): displacements below `none_m` are removed and those above `all_m` are kept, with a smooth transition
+/// between them, because an abrupt end would show as an edge. Results below a fifth of `none_m` are also removed.
 struct Fade {
     double none_m = 5e-5, all_m = 1.5e-4;
 };
 void fade_out(Points& field, const Fade& fade = {});
 
-/// Weight of the left side (x > 0) at x: 0 to 1, smooth over 2 `half_width_m`.
+/// Weight of the left side (x > 0) at x: goes smoothly from 0 to 1 within `half_width_m` of the midplane.
 double left_fraction(double x_m, double half_width_m);
 
-/// Corrects two halves that were solved separately, near where they meet, so that left + right is the whole.
+/// Corrects two halves that were solved separately, near the midplane, so that left + right equals the whole.
 void share_the_rest(const Points& rest, const Points& whole, double half_width_m, Points& left,
                     Points& right);
 

@@ -12,7 +12,7 @@ namespace risorius::design {
 
 namespace {
 
-constexpr int kMaxDepth = 64;  // of nested brackets and signs
+constexpr int kMaxDepth = 64;  // nesting depth of brackets and signs
 
 class Reader {
   public:

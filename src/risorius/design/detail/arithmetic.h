@@ -12,8 +12,8 @@
 
 namespace risorius::design {
 
-/// The value of `text`; `value_of` gives the values of names. Throws Error naming `place` when the formula is wrong or its value is not
-/// finite.
+/// Evaluates `text`. `value_of` gives the values of names. Throws Error naming `place` when the formula is wrong or its value is
+/// not finite.
 double arithmetic(const std::string& text, const std::string& place,
                   const std::function<double(const std::string& name)>& value_of);
 

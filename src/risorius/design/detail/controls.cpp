@@ -103,7 +103,7 @@ std::vector<int> frame_order(const Control& control, int frames, int apex, unsig
     if (control.kind == ControlKind::kReversed) std::reverse(order.begin(), order.end());
     if (control.kind == ControlKind::kApex) std::fill(order.begin(), order.end(), apex);
     if (control.kind == ControlKind::kScrambled) {
-        // Fisher and Yates' shuffle; std::shuffle's draws are not the same everywhere
+        // Fisher-Yates shuffle. The results of std::shuffle differ between standard libraries.
         std::mt19937 random(seed);
         for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
     }

@@ -18,7 +18,7 @@ namespace {
 constexpr int kMaxModulo = 1000;
 constexpr std::size_t kMaxStrength = 4;
 
-/// The number of conditions of the whole crossing of a set. Throws Error when there are too many.
+/// The number of conditions in the complete crossing of a set. Throws Error when there are too many.
 long crossing(const ConditionSet& set) {
     long count = static_cast<long>(set.rows.size());
     for (const Factor& factor : set.factors) {
@@ -38,7 +38,7 @@ bool keeps(const ConditionSet& set, const Relation& relation, const std::vector<
     return ((sum - relation.remainder) % relation.modulo + relation.modulo) % relation.modulo == 0;
 }
 
-/// How often the rarest and the most frequent combination of levels of some factors occur.
+/// Frequencies of the rarest and of the most frequent combination of levels of some factors.
 struct Counts {
     long min = 0, max = 0;
 };
@@ -48,7 +48,7 @@ Counts counts_of(const std::vector<std::vector<int>>& conditions, const std::vec
     const auto wanted = static_cast<long>(conditions.size());
     long combinations = 1;
     for (const std::size_t f : factors) combinations *= sizes[f];
-    if (combinations > wanted && factors.size() > 2) return {0, wanted};  // cannot be balanced
+    if (combinations > wanted && factors.size() > 2) return {0, wanted};  // balance is impossible
     std::vector<long> count(static_cast<std::size_t>(combinations));
     for (const std::vector<int>& levels : conditions) {
         long at = 0;
@@ -59,7 +59,7 @@ Counts counts_of(const std::vector<std::vector<int>>& conditions, const std::vec
     return {*min, *max};
 }
 
-/// Calls use(choice) for all choices of `size` of `count` things until it returns false.
+/// Calls use(choice) for every choice of `size` out of `count` items until it returns false.
 template <typename Use>
 bool for_choices(std::size_t count, std::size_t size, const Use& use) {
     std::vector<std::size_t> choice(size);
@@ -146,7 +146,7 @@ Balance balance_of(const ConditionSet& set, int seed) {
         conditions.push_back(levels_of(set, index));
     out.used = static_cast<long>(conditions.size());
 
-    // Factors with several levels; the rows of the table count as one
+    // Numbers of levels of the factors; the rows of the table count as one factor.
     std::vector<long> sizes{static_cast<long>(set.rows.size())};
     for (const Factor& factor : set.factors)
         sizes.push_back(static_cast<long>(factor.levels.size()));

@@ -26,14 +26,14 @@ std::string text_of(const Json& value) {
 
 using ValueOf = std::function<const Json&(const std::string& name, const std::string& place)>;
 
-/// The name in a text that is "${name}" and nothing else; empty otherwise.
+/// The name in a text that is exactly "${name}"; otherwise empty.
 std::string whole_reference(const std::string& text) {
     if (text.size() < 4 || text.compare(0, 2, "${") != 0 || text.back() != '}') return {};
     const std::string name = text.substr(2, text.size() - 3);
     return is_parameter_name(name) ? name : std::string();
 }
 
-/// `known`: a map by name.
+/// `known`: a map whose keys are the valid names.
 [[noreturn]] void fail_unknown(const std::string& name, const std::string& place,
                                const auto& known) {
     std::vector<std::string> names;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The named values of one condition. They are filled into the template of a script.
+/// The named values of a condition, which are filled into the template of a script.
 ///
-/// A string of a template is  "${name}"           the value itself, whatever it is: number, text, list, null
-///                            "= name * 2 + 0.1"  a number, see arithmetic.h
-///                            "happy_${name}.wav" text with values in it
-/// Values of parameters may be written like that too, with the names of other parameters.
+/// A string of a template may be
+///
+///   "${name}"            the value itself, of any type: number, text, list, null
+///   "= name * 2 + 0.1"   a number, see arithmetic.h
+///   "happy_${name}.wav"  text with values in it
+///
+/// Values of parameters may use the same forms, with the names of other parameters.
 #pragma once
 
 #include <memory>
@@ -16,15 +19,17 @@
 
 namespace risorius::design {
 
-/// A named value, with the place in the file where it was given.
+/// A named value, with its position in the file.
 struct Given {
     std::string name;
     JsonCursor value;
 };
 
+/// Parameters with their references resolved.
 class Parameters {
   public:
-    /// When a name is given several times, the last value counts. Throws Error when a value depends on itself or on an unknown name.
+    /// If a name is given several times, the last value is used. Throws Error when a value depends on itself or on an unknown
+    /// name.
     explicit Parameters(const std::vector<Given>& given);
     ~Parameters();
     Parameters(Parameters&&) noexcept;
@@ -32,10 +37,10 @@ class Parameters {
     bool has(const std::string& name) const;
     const Json& at(const std::string& name) const;
     std::vector<std::string> names() const;  ///< ascending
-    /// The value as text for names of files and for tables: numbers in their shortest form, text unchanged.
+    /// The value as text for file names and tables: numbers in their shortest form, text unchanged.
     std::string text(const std::string& name) const;
 
-    /// `value` with all names replaced by their values. Throws Error naming the place in its file.
+    /// `value` with all names replaced by their values. Throws Error naming the position in its file.
     Json filled(const JsonCursor& value) const;
     /// The same for text that contains ${name}.
     std::string filled_text(const std::string& text, const std::string& place) const;
@@ -48,7 +53,7 @@ class Parameters {
 /// A number as JSON; integers are written without a decimal point.
 Json json_number(double value);
 
-/// Whether ${name} can be written: letters, digits and _, with a letter first.
+/// Whether a name is valid in ${name}: letters, digits and _, starting with a letter.
 bool is_parameter_name(const std::string& name);
 
 }  // namespace risorius::design

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Tables of conditions as spreadsheets write them: a row of names, then a row of values for each condition, separated by tabs or
-/// commas.
+/// Tables of conditions as spreadsheets write them: a row of names, followed by one row of values per condition, separated by
+/// tabs or commas.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,8 @@
 
 namespace risorius::design {
 
-/// Numbers, true and false are read as such, empty cells are left out, other cells are text. Throws Error naming the line.
+/// Reads a table. Numbers, true and false are converted, empty cells are omitted, other cells are text. Throws Error naming the
+/// line.
 std::vector<std::vector<Given>> read_table(const std::filesystem::path& file);
 
 }  // namespace risorius::design

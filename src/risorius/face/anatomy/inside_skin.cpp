@@ -23,7 +23,7 @@ InsideSkin::InsideSkin(const Points& skin, const Triangles& triangles)
 
 bool InsideSkin::outside(const Vec3& p) const {
     const auto foot = tree_.closest(p);
-    // Nearest to an edge or a corner a triangle's own side says nothing
+    // If the nearest point lies on an edge or a corner, the side of one triangle is not decisive
     if (!foot || foot->barycentric.minCoeff() < 1e-6) return false;
     const Vec3 a = skin_.row(triangles_(foot->triangle, 0)),
                b = skin_.row(triangles_(foot->triangle, 1)),

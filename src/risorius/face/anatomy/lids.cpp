@@ -11,9 +11,9 @@ namespace risorius::face {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kPlaces = 121;  // of the tables over s
+constexpr int kPlaces = 121;  // samples of the tables over s
 constexpr double kFirstPlace = -0.25, kLastPlace = 1.25;
-constexpr double kLowest = -1.3, kAngle = 0.002;  // rad: of the scan for the fissure
+constexpr double kLowest = -1.3, kAngle = 0.002;  // rad, range and step of the scan for the fissure
 constexpr int kAngles = 1200;
 
 double place_at(int i) { return kFirstPlace + (kLastPlace - kFirstPlace) * i / (kPlaces - 1); }
@@ -26,7 +26,7 @@ EyeLids::EyeLids(const rig::Head& head, int side, double upper_fraction)
     const auto at = [&](const char* id) { return head.landmark(id + suffix); };
     centre_ = head.eyes[side].centre;
     axis_ = (at("ex") - at("en")).normalized();
-    // The lids turn about the eye, so their axis passes through its centre; level it to the canthi's own direction.
+    // The lids rotate about the eye, so their axis passes through its centre, parallel to the line through the canthi
     const Vec3 gaze = head.eyes[side].forward;
     forward_ = (gaze - gaze.dot(axis_) * axis_).normalized();
     up_ = forward_.cross(axis_);
@@ -72,8 +72,8 @@ double EyeLids::margin_angle(const std::vector<Vec3>& margin, double place) cons
     return angle_of(s < 0.5 ? margin.front() : margin.back());
 }
 
-// The fissure as the eye's centre sees it: at every place the largest stretch of angles that no triangle covers. A mesh
-// whose eyes are shut has none; there the landmarks say where the margins would be.
+// Measures the fissure as seen from the centre of the eye: at each s the largest interval of angles that no triangle covers. A mesh with
+// closed eyes has none; there the landmarks give the margins.
 void EyeLids::measure_margins(const rig::Head& head) {
     std::vector<std::vector<char>> covered(kPlaces, std::vector<char>(kAngles, 0));
     const double reach = zone_m_ + head.mm(10);
@@ -123,12 +123,12 @@ void EyeLids::measure_margins(const rig::Head& head) {
         lower_angle_[i] = kLowest + (end - longest + 0.5) * kAngle;
         upper_angle_[i] = kLowest + (end + 0.5) * kAngle;
     }
-    // One opening, from the middle outwards as far as it goes
+    // The one opening that contains the middle
     int first = kPlaces / 2, last = kPlaces / 2;
     while (first > 0 && open[first - 1]) --first;
     while (last + 1 < kPlaces && open[last + 1]) ++last;
     const bool found = open[kPlaces / 2] && (last - first) > kPlaces / 4;
-    // Towards the canthi the caruncle and folds of skin hide some of the opening, which the landmarks know of
+    // Near the canthi the caruncle and folds of skin hide part of the opening; the landmarks give it there
     for (int i = 0; i < kPlaces; ++i) {
         const double s = place_at(i);
         const double upper = margin_angle(upper_, s), lower = margin_angle(lower_, s);
@@ -143,9 +143,9 @@ void EyeLids::measure_margins(const rig::Head& head) {
     }
 }
 
-// Skin above the margin does not end at the canthi as the fissure does: it turns by the gap averaged along the lid.
+// Skin above the margin does not end at the canthi like the fissure. It rotates by the gap averaged along the lid.
 void EyeLids::widen_gap() {
-    constexpr double kWidth = 0.13;  // of the fissure
+    constexpr double kWidth = 0.13;  // width of the mean / length of the fissure
     wide_gap_.assign(kPlaces, 0.0);
     for (int i = 0; i < kPlaces; ++i) {
         double sum = 0, weights = 0;
@@ -175,13 +175,13 @@ LidMember EyeLids::member(const Vec3& p) const {
     member.upper = angle >= 0.5 * (upper + lower);
     const Vec3 r = p - centre_;
     const double from_axis = (r - r.dot(axis_) * axis_).norm();
-    // A crease that comes close to the margin still leaves the lid some skin
+    // A crease near the margin still leaves some skin on the lid
     const double min = 3.0 * millimetre_ / std::max(from_axis, 3.0 * millimetre_);
     member.height = member.upper
                         ? std::max(0.0, angle - upper) / std::max(crease_angle_ - upper, min)
                         : std::max(0.0, lower - angle) * from_axis / lower_reach_m_;
     member.beyond = beyond_m(member.place);
-    // What lies between the lids (the caruncle) goes with both; beyond the canthi upper lid passes into lower lid
+    // Points between the lids (the caruncle) follow both; beyond the canthi the upper lid merges into the lower lid
     const double middle = 0.5 * (upper + lower);
     const double half = std::max(
         {0.5 * (upper - lower), 1e-6, 0.4 * geom::smoothstep(0, 2.0 * millimetre_, member.beyond)});
@@ -198,7 +198,7 @@ double EyeLids::firmness(const LidMember& member, double upper_core, double uppe
                                  : 1.0 - geom::smoothstep(lower_core, lower_end, member.height));
 }
 
-// At the canthi both lids turn alike, less than half-way between.
+// At the canthi both lids rotate alike, by less than half of the way.
 double EyeLids::gaze_turn(double place, double own_rad, double other_rad) const {
     const double s = std::clamp(place, 0.0, 1.0);
     const double apart = std::sqrt(std::sin(kPi * s));
@@ -214,13 +214,13 @@ EyeLids::Curves EyeLids::curves(double place, const LidPose& pose) const {
     const double upper = std::max(
         lower, upper_angle(place) - gaze_turn(place, pose.upper_gaze_rad, pose.lower_gaze_rad));
     const double meeting = lower + (1.0 - upper_fraction_) * (upper - lower);
-    // Shut lids press their margins into each other, or a coarse mesh would leave slits
+    // Closed lids press their margins into each other; otherwise a coarse mesh would leave slits
     const double press = 0.08 * millimetre_ / zone_m_;
     return {upper + pose.upper_closure * (meeting - press - upper),
             lower + pose.lower_closure * (meeting + press - lower)};
 }
 
-// Measured in blinks: the lower lid slides 3 mm inwards, most in the middle; the upper lid 2.2 mm, most near the nose.
+// In measured blinks the lower lid slides 3 mm inwards, most in the middle, and the upper lid 2.2 mm, most near the nose.
 double EyeLids::slide_m(double place, bool upper, const LidPose& pose) const {
     if (pose.inward == 0 && pose.aside_rad == 0) return 0.0;
     const double s = std::clamp(place, 0.0, 1.0);

@@ -8,7 +8,7 @@
 ///   q      height over the margin: 1 at the crease of the upper lid, 1 where the lower lid ends
 ///
 /// Gaze, wide opening and a tightened lower lid shape the curve of each margin. Both margins then close on the line where they meet:
-///   upper(s) = U(s) + closure (M(s) - U(s)),  M = L + (1 - share) (U - L)
+///   upper(s) = U(s) + closure (M(s) - U(s)),  M = L + (1 - fraction) (U - L)
 /// A margin point slides along its curve, inwards in a blink and sideways with the gaze, so that closed lids meet in every gaze.
 /// The skin of the plate turns with gaze as one piece up to the crease. When the eye closes, it unrolls from below the crease.
 #pragma once

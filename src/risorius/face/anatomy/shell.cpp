@@ -97,7 +97,7 @@ class Cavities {
     std::vector<Vec3> rays_;
 };
 
-// Largest connected piece of a triangle list.
+// Returns the largest connected piece of a list of triangles.
 Triangles max_piece(const Triangles& triangles, long vertex_count) {
     std::vector<int> parent(static_cast<std::size_t>(vertex_count));
     for (std::size_t v = 0; v < parent.size(); ++v) parent[v] = static_cast<int>(v);
@@ -124,7 +124,7 @@ Triangles max_piece(const Triangles& triangles, long vertex_count) {
     return out;
 }
 
-// Corners that touch the shell with a single triangle fan twice (bow ties) make prisms meet in a line; drop such fans.
+// Drops triangle fans that meet the shell in one vertex only (bow ties): their prisms would meet in a line.
 Triangles without_bow_ties(const Triangles& triangles) {
     Triangles current = triangles;
     for (int pass = 0; pass < 10; ++pass) {
@@ -244,7 +244,7 @@ void ShellMaker::choose_region() {
         face_.row(static_cast<long>(i)) = head_.skin.row(region[i]);
 }
 
-// Smooth outward direction; at mouth and eyes, where skin folds inwards, it is given.
+// Computes the smooth outward direction. At mouth and eyes, where skin folds inwards, it is given.
 void ShellMaker::find_directions() {
     shell_.direction = smooth_normals(head_.vertices, head_.skin, used_, head_.mm(7));
     for (long v = 0; v < count_; ++v) {
@@ -282,8 +282,8 @@ void ShellMaker::make_directions_symmetric() {
     }
 }
 
-// Leaves out what turns away from the direction, and what lies in a nostril: tissue under its walls would bind the wing to the septum,
-// and leave no depth for either.
+// Drops triangles that face away from the direction, and the walls of nostrils: tissue under those would bind the wing of the nose to the
+// septum and leave no depth for either.
 Triangles ShellMaker::facing_triangles() const {
     constexpr double kMinFacing = 0.12;
     const Cavities cavities(head_);
@@ -311,7 +311,7 @@ void ShellMaker::keep_what_faces_outwards() {
         shell_.fine = max_piece(without_bow_ties(facing), count_);
         return;
     }
-    // Fans that are dropped may have held others
+    // Dropping a fan may isolate others
     half_ = geom::first_half(facing, head_.vertices, mirror_);
     for (long before = -1; half_.rows() != before;) {
         before = half_.rows();
@@ -337,7 +337,7 @@ void ShellMaker::set_sizes() {
         if (used_[v]) shell_.spacing_m[v] = head_.mm(wanted_size_mm(at(v)));
 }
 
-// Scales the size field until the wanted number of vertices is left; the mouth by steps.
+// Scales the size field until the wanted number of vertices is left; that of the mouth in steps.
 void ShellMaker::decimate(int vertices) {
     std::vector<double> off_mouth(static_cast<std::size_t>(count_), 1.0);
     for (long v = 0; v < count_; ++v)

@@ -12,11 +12,11 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kMinVolume = 0.12;  // of a tet's nominal volume
+constexpr double kMinVolume = 0.12;  // minimum volume of a tet / its nominal volume
 constexpr int kRepairRounds = 60;
 constexpr double kThinnest_mm = 0.8;
 
-// Three tetrahedra per prism, with diagonals from the vertex of least rank so that neighbours agree, and mirror images too.
+// Splits a prism into three tetrahedra. Diagonals start at the vertex of lowest rank, so that neighbours and mirror images agree.
 void cut_prism(const std::array<int, 3>& base, const std::vector<int>& rank, Layer bottom,
                Layer top, std::vector<std::array<int, 4>>& out) {
     std::array<int, 3> v = base;
@@ -141,7 +141,7 @@ void TissueMaker::choose_thickness(const rig::RigDescription& rig,
             thickness = (1 - lid) * thickness + lid * to_globe;
             on_lid = on_lid || lid > 0;
         }
-        // Elsewhere no bone comes near the skin of another side
+        // Elsewhere bone keeps away from the skin of the other side
         if (lip == 0 && !on_lid)
             thickness = inside_.depth(p, mesh_.direction[v], thickness, min_depth_m_);
         mesh_.thickness_m[v] = thickness;
@@ -251,7 +251,7 @@ void TissueMaker::repair_columns() {
     }
 }
 
-// The mesh of the good tets.
+// Returns the mesh of the good tets.
 TissueMesh TissueMaker::take() {
     std::vector<std::array<int, 4>> kept;
     for (std::size_t t = 0; t < tets_.size(); ++t) {

@@ -13,15 +13,15 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kHold_s = 0.2;   // muscles change
-constexpr double kSwing_s = 0.5;  // jaw and head find a new goal
+constexpr double kHold_s = 0.2;   // time between two draws of active muscles
+constexpr double kSwing_s = 0.5;  // time between two targets of jaw and head
 constexpr double kPi = 3.14159265358979323846;
 
 struct Goal {
     track::Kinematic channel;
     double min, max;
 };
-// Shaking, nodding, chewing and looking about, each as fast as people do it
+// Head shakes, nods, chewing and gaze shifts at natural speeds
 constexpr Goal kGoals[] = {
     {track::Kinematic::kJawOpen, -0.4, 0.8},       {track::Kinematic::kJawForward, -0.5, 0.8},
     {track::Kinematic::kJawSide, -0.7, 0.7},       {track::Kinematic::kHeadYaw, -30, 30},
@@ -31,7 +31,7 @@ constexpr Goal kGoals[] = {
     {track::Kinematic::kGazePitchLeft, -20, 20},   {track::Kinematic::kGazePitchRight, -20, 20},
     {track::Kinematic::kMouthPressure, -500, 1500}};
 
-// One number of a place in the run, the same whatever was asked before
+// Returns a random number that depends only on its key, not on the order of calls
 double chance(int seed, unsigned stream, long row, long column) {
     return CounterRng()
         .at(static_cast<std::uint64_t>(seed))
@@ -41,7 +41,7 @@ double chance(int seed, unsigned stream, long row, long column) {
         .uniform_open();
 }
 
-// The least of the values that so large a share of them does not exceed; 0 of none.
+// Returns the quantile of the values for this fraction; 0 if there are none.
 double fraction_below(std::vector<double> values, double fraction) {
     if (values.empty()) return 0;
     std::sort(values.begin(), values.end());
@@ -68,7 +68,7 @@ DriveAt stress_drive(const track::ChannelTable& channels, const StressOptions& o
         const double fraction = 0.5 * (1 - std::cos(kPi * place));
         long column = 0;
         for (const Goal& goal : kGoals) {
-            // From rest, and back to it at the end
+            // The motion starts and ends at rest
             const auto value = [&](long at) {
                 if (at == 0 || static_cast<double>(at) * kSwing_s > end_s - kSwing_s) return 0.0;
                 const double x =
@@ -101,7 +101,7 @@ StressReport stress(Face& face, const track::ChannelTable& channels, const Stres
         const Points now = face.diagnostics().skin_nodes();
         if (!now.allFinite()) {
             ++report.broken_steps;
-            break;  // nothing that comes after could mean anything
+            break;  // later states would be meaningless
         }
         const int inverted = face.diagnostics().inverted_tets();
         in_a_row = inverted > 0 ? in_a_row + 1 : 0;

@@ -17,10 +17,11 @@ namespace risorius::face {
 
 namespace {
 
-constexpr int kCoarse = 4;           // steps of the coarse one
-constexpr double kRound_mm = 1.6;    // of the edge between measured and assumed bone
-constexpr double kSteepest = 1.6;    // of the fields, about, for what the coarse grid can rule out
-constexpr double kFarSkin_mm = 45;   // tissue is nowhere as thick
+constexpr int kCoarse = 4;         // coarse step / fine step of the grids
+constexpr double kRound_mm = 1.6;  // rounding of the edge between measured and assumed bone
+constexpr double kSteepest =
+    1.6;  // approximate maximum slope of the fields; the coarse grid rules out cells with it
+constexpr double kFarSkin_mm = 45;   // more than the maximum thickness of the tissue
 constexpr double kSpread_mm = 0.02;  // smoothing of the warp
 
 /// From the head to the standard head.
@@ -45,8 +46,8 @@ rig::LandmarkWarp to_standard(const rig::Head& head, const rig::RigDescription& 
     return {a, b, 1e-3 * kSpread_mm};
 }
 
-/// Skin that lies over bone: not what lines mouth and nose or lies on the eyes, where meshes have those in one piece with it. From
-/// there hardly a way leads outside.
+/// Returns the skin that lies over bone. The linings of mouth and nose and the skin on the eyes are left out where they are part of the
+/// same piece; hardly any direction leads outside from there.
 Triangles outer_skin(const rig::Head& head) {
     constexpr double kOnEye = 1.3, kGolden_rad = 2.399963229728653;
     constexpr int kWays = 16, kEnough = 4;
@@ -81,7 +82,7 @@ Triangles outer_skin(const rig::Head& head) {
     return skin;
 }
 
-/// How deep under the tissue a place is, m: 0 where the outer side of bone is.
+/// Returns the depth of a point below the outer side of the bone, m.
 class TissueDepth {
   public:
     TissueDepth(const rig::Head& head, const rig::RigDescription& rig)
@@ -110,7 +111,7 @@ class TissueDepth {
             outward +=
                 foot->barycentric[k] * normal_[static_cast<std::size_t>(skin_(foot->triangle, k))];
         const double distance = std::sqrt(foot->squared_distance);
-        // Behind an opening, as those of the eyes, it is the rim of the skin that is nearest
+        // Behind an opening, such as those of the eyes, the rim of the skin is nearest
         const bool outside = !at_border(*foot) && (p - foot->point).dot(outward) > 0;
         const double inside = outside ? -distance : distance;
         return inside - interpolate_thickness(head_, rig_.atlas.thickness, foot->point);
@@ -133,7 +134,7 @@ class TissueDepth {
     std::vector<char> border_;  ///< V
 };
 
-/// Takes the grid's steps out of a surface and keeps its size (Taubin 1995).
+/// Smooths the steps of the grid out of a surface and keeps its size (Taubin 1995).
 void smooth(geom::NetSurface& net) {
     const geom::SurfaceEdges edges = geom::surface_edges(net.triangles);
     for (const double fraction : {0.5, -0.53, 0.5, -0.53, 0.5, -0.53, 0.5, -0.53, 0.5, -0.53}) {
@@ -151,7 +152,7 @@ void smooth(geom::NetSurface& net) {
     }
 }
 
-/// Samples a field where the coarse grid does not rule out that it is zero; elsewhere what that has.
+/// Samples a field where the coarse grid does not rule out a zero; elsewhere takes the value of the coarse grid.
 BoneSurface surface_of(const std::function<double(const Vec3&)>& field, const Vec3& low,
                        const Vec3& high, double step_m) {
     geom::GridField coarse(low, high, kCoarse * step_m, 0);
@@ -221,7 +222,7 @@ Skull estimate_skull(const rig::Head& head, const rig::RigDescription& rig, doub
             double out = fields.outer;
             const bool at_nose = nose && near_nasal_bone(standard);
             if (std::min(out, fields.vault) < kFar_mm ||
-                at_nose) {  // else the thickness does not matter
+                at_nose) {  // otherwise the thickness does not matter
                 const double under = depth(p) / per_mm;
                 const double vault = smooth_cut(smooth_cut(fields.vault, -under, kRound_mm),
                                                 -fields.temple, kTempleRound_mm);
@@ -233,7 +234,7 @@ Skull estimate_skull(const rig::Head& head, const rig::RigDescription& rig, doub
         };
     };
     const auto box = [&](const Vec3& low_mm, const Vec3& high_mm) {
-        // Of the standard head, as large on this one, with room for what is longer or wider
+        // The box of the standard head, scaled to this head, with a margin for longer or wider heads
         Vec3 low = Vec3::Constant(1e9), high = -low;
         for (const auto& [id, at] : head.landmarks) {
             low = low.cwiseMin(at);

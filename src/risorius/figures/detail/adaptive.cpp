@@ -15,7 +15,7 @@
 namespace risorius::figures {
 namespace {
 
-/// On meshes that are refined again: Newton's last move, share of the body's length
+/// Tolerance on meshes that will be refined again: Newton's last displacement over the body's length.
 constexpr double kToleranceOnTheWay = 1e-3;
 
 struct Push {
@@ -105,40 +105,40 @@ struct Answers {
     double move_m = 0, push_n = 0, volume_change_percent = 0;
 };
 
-/// What a series costs, counted: the same on any machine.
+/// Counted cost of a series: the same on any machine.
 struct Work {
-    double assembled_cells = 0;  ///< second derivatives of a cell's energy
+    double assembled_cells = 0;  ///< assembled Hessians of a cell's energy
     double multiplications = 0;  ///< of conjugate gradients
 
-    /// Both in one number for the charts: about as many multiplications take as long as the second derivative of a cell.
+    /// Both counts as one number for the charts: the Hessian of a cell takes about as long as this many multiplications.
     double total() const { return multiplications + 3e4 * assembled_cells; }
     void add(const Work& other) {
         assembled_cells += other.assembled_cells;
         multiplications += other.multiplications;
     }
-    /// The greater of both counts' shares: a cost of any weights is less.
+    /// The larger fraction of the two counts, an upper bound for any weighting of them.
     double fraction_of(const Work& whole) const {
         return std::max(assembled_cells / whole.assembled_cells,
                         multiplications / whole.multiplications);
     }
 };
 
-/// One equilibrium of a series of ever finer meshes.
+/// One equilibrium of a series of increasingly fine meshes.
 struct Rest {
     int nodes = 0, cells = 0, deepest = 0;
     long solves = 0;
-    Work own, all;  ///< of this mesh, and of all before it too
+    Work own, all;  ///< of this mesh alone, and including all meshes before it
     double energy_j = 0, estimated_error = 0, mass_kg = 0, last_move_m = 0;
     Answers answers;
 };
 
 struct Series {
     std::vector<Rest> rests = {};
-    bool converged = false;  ///< every one
-    Shape shape = {};        ///< of the last
+    bool converged = false;  ///< of all meshes
+    Shape shape = {};        ///< on the last mesh
 };
 
-/// Brings one case to rest on one mesh after the other and notes what it cost.
+/// Solves one case for equilibrium on a series of meshes and records the cost.
 class EquilibriumSolver {
   public:
     EquilibriumSolver(const Case& one, const solve::IntegratorOptions& options,
@@ -193,7 +193,7 @@ class EquilibriumSolver {
                     .multiplications = report.multiplications};
         rest.all = rest.own;
         if (!rests.empty()) rest.all.add(rests.back().all);
-        // Settled further on the same mesh: one entry
+        // A further solve on the same mesh replaces the last entry.
         if (&solid == noted_) {
             rest.solves += rests.back().solves;
             rest.own.add(rests.back().own);
@@ -233,7 +233,8 @@ class EquilibriumSolver {
     double length_m_ = 1;
 };
 
-/// Strain proper at the vertices, for colour: from 0 at none to 1 at the greatest, by its root to show weak strain too.
+/// Strain without rotation at the vertices as a colour value: 0 for none, 1 for the maximum. The square root makes weak strain
+/// visible.
 std::vector<double> shade_of(const tissue::CellSolid& solid, const Points& x) {
     const std::vector<Mat3> strain = tissue::smooth_strain(solid, x);
     std::vector<double> shade(strain.size(), 0.0);
@@ -300,7 +301,7 @@ double difference_percent(double value, double reference) {
     return reference != 0 ? 100 * std::abs(value / reference - 1) : 0;
 }
 
-/// The greatest of the answers' differences, each as a share of its reference; of volumes, as a share of the volume.
+/// Maximum relative difference of the answers, %. The volume is compared as a whole, not its change.
 double difference_percent(const Answers& a, const Answers& reference) {
     return std::max({difference_percent(a.move_m, reference.move_m),
                      difference_percent(a.push_n, reference.push_n),
@@ -310,7 +311,8 @@ double difference_percent(const Answers& a, const Answers& reference) {
 struct NamedSeries {
     std::string name, label;
     const Series& series;
-    bool to_the_end = true;  ///< of the reference, all but itself
+    /// Whether the curve includes the last mesh. False for the reference series, whose last mesh is the reference itself.
+    bool to_the_end = true;
 };
 
 void tabulate(const Case& one, const std::vector<NamedSeries>& all, const Answers& reference,
@@ -382,7 +384,7 @@ void run_adaptive(const JsonCursor& experiment, const RunOptions& options, Outco
     if (newton.linear != solve::LinearSolver::kConjugate)
         integrator.at("linear").fail("\"conjugate\", whose work is counted");
 
-    // Three series of each case, those that take longest first
+    // Three series per case; those that take longest start first.
     const int count = static_cast<int>(cases.size());
     std::vector<Series> uniform(cases.size()), refined(cases.size()), reference(cases.size());
     Progress progress(options, 3.0 * count);

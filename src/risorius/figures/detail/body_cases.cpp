@@ -33,7 +33,7 @@ softbody::BodyDescription changed_body(const JsonCursor& body,
                                        const std::optional<JsonCursor>& change,
                                        const std::string& case_name) {
     if (!change) return softbody::read_body(body);
-    change->keys();  // an object
+    change->keys();  // must be an object
     Json changed = body.json();
     changed.merge_patch(change->json());
     return softbody::read_body(JsonCursor::from_json(Json{{"body", changed}},
@@ -102,7 +102,7 @@ std::vector<BodyRun> read_runs(const JsonCursor& experiment) {
 Workload workload_of(const std::vector<BodyRun>& runs) {
     Workload load;
     for (const BodyRun& run : runs) {
-        // The cost of a step grows with the nodes, the number of explicit steps with their density and more.
+        // The cost of a step grows with the number of nodes, and the number of explicit steps grows with their density.
         const double one = std::pow(run.body.grid.size(), 5.0 / 3);
         load.order.push_back(load.order.size());
         load.work.push_back(one);

@@ -23,7 +23,7 @@ struct DrawnSurface {
     Triangles triangles;
 };
 
-/// Rows of `around` points each, neighbouring rows joined; the last row to the first when `closed`.
+/// Triangulates rows of `around` points each between neighbouring rows, and between the last and the first row when `closed`.
 DrawnSurface joined_rows(int rows, int around, bool closed, const auto& point) {
     DrawnSurface surface;
     surface.positions.resize(rows * around, 3);
@@ -43,13 +43,13 @@ DrawnSurface joined_rows(int rows, int around, bool closed, const auto& point) {
     return surface;
 }
 
-/// Around the segment from `start` to `end`, which may be a point.
+/// A capsule around the segment from `start` to `end`; equal points give a sphere.
 DrawnSurface drawn_capsule(const Vec3& start, const Vec3& end, double radius) {
     const Vec3 way = end - start;
     const Vec3 axis = way.norm() > 0 ? Vec3(way.normalized()) : Vec3(Vec3::UnitZ());
     const Vec3 u = axis.unitOrthogonal(), v = axis.cross(u);
     return joined_rows(kAround / 2 + 2, kAround, false, [&](int i, int j) -> Vec3 {
-        const bool upper = i > kAround / 4;  // the equator is there twice, once on either end
+        const bool upper = i > kAround / 4;  // the equator exists twice, at both ends
         const double polar = std::numbers::pi * ((upper ? i - 1 : i) * 2.0 / kAround - 0.5);
         const double turn = 2 * std::numbers::pi * j / kAround;
         return (upper ? end : start) +
@@ -67,9 +67,9 @@ DrawnSurface torus(const Vec3& centre, double radius, double tube) {
     });
 }
 
-/// The part of a plane that lies below the points.
+/// A square of the plane below the points.
 DrawnSurface drawn_plane(const Vec3& point, const Vec3& normal, const Points& above) {
-    constexpr double kReach = 1.3;  // over the farthest point
+    constexpr double kReach = 1.3;  // ratio to the distance of the farthest point
     const Vec3 mean = above.colwise().mean().transpose();
     const Vec3 centre = mean - normal * normal.dot(mean - point);
     const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
@@ -193,7 +193,7 @@ solve::IntegratorReport ContactScene::run(solve::IntegratorOptions integrator, d
     integrator.length_scale_m = length_scale_m_;
     const auto steps = solve::make_integrator(integrator);
     solve::IntegratorReport report;
-    constexpr int kParts = 50;  // between which the wish to stop is heard
+    constexpr int kParts = 50;  // a run can be interrupted between these parts
     const double from = state_.t_s;
     for (int i = 1; i <= kParts && !report.diverged; ++i) {
         options.monitor.throw_if_stopped();
@@ -241,7 +241,7 @@ Shape ContactScene::shape(const ContactSceneDescription& description) const {
         all << shape.surface, (triangles.array() + first).matrix();
         shape.surface = all;
     };
-    // Bodies in the colours at the ends of the scale, what is rigid in its pale middle
+    // Bodies have the colours at the ends of the scale, rigid obstacles its pale middle.
     constexpr double kRigid = 0.5;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         append_triangles(bodies_[i].surface, first_[i]);
@@ -254,7 +254,7 @@ Shape ContactScene::shape(const ContactSceneDescription& description) const {
     for (const SceneObstacle& obstacle : description.obstacles) {
         DrawnSurface drawn{obstacle.positions, obstacle.triangles};
         if (obstacle.is_plane) drawn = drawn_plane(obstacle.point_m, obstacle.normal, state_.x);
-        // Smaller by the thickness, so that the flat triangles that lie on it do not dip into it
+        // The obstacle is drawn smaller by the contact thickness, so that flat triangles that lie on it do not dip into it.
         drawn.positions -= description.contact.thickness_m *
                            geom::vertex_normals(drawn.positions, drawn.triangles);
         const int first = static_cast<int>(shape.positions.rows());

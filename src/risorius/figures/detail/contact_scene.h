@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Soft bodies let fall on rigid things and on each other: one scene of an experiment file, run and measured.
+/// One scene of an experiment file: soft bodies that fall on rigid obstacles and on each other.
 ///
 ///   {"name": "cloth-over-torus", "caption": "...", "duration_s": 1.5, "parts_per_side": 2,
 ///    "bodies": [{...}], "obstacles": [{"torus": {"centre_m": [0, 0, 0], "radius_m": 0.1, "tube_m": 0.04}}],
 ///    "contact": {"stiffness_pa_per_m": 1e5, "thickness_m": 1e-3, "friction": 0.5}}
 ///
-/// Obstacles are planes, spheres and capsules as in softbody/action_description.h, and tori, which are closed meshes: each is
-/// touched by every body. Bodies that are closed touch each other.
+/// Obstacles are planes, spheres and capsules as in softbody/action_description.h, and tori, which are closed meshes. Every body
+/// may touch every obstacle. Closed bodies also touch each other.
 #pragma once
 
 #include <memory>
@@ -25,11 +25,12 @@
 
 namespace risorius::figures {
 
+/// A rigid obstacle, and how it is drawn.
 struct SceneObstacle {
     std::shared_ptr<const contact::Obstacle> obstacle;
-    Points positions;  ///< of a surface to draw; empty for a plane
+    Points positions;  ///< vertices of the surface to draw; empty for a plane
     Triangles triangles;
-    bool is_plane = false;  ///< drawn as a square below the bodies, across `normal`
+    bool is_plane = false;  ///< drawn as a square below the bodies, perpendicular to `normal`
     Vec3 point_m = Vec3::Zero(), normal = Vec3::UnitZ();
 };
 
@@ -42,32 +43,33 @@ struct ContactSceneDescription {
     contact::ContactMaterial contact;
 };
 
-/// Throws Error for whatever is not as described.
+/// Throws Error for a wrong description.
 ContactSceneDescription read_contact_scene(const JsonCursor& json);
 
+/// A scene that can be simulated and measured.
 class ContactScene {
   public:
     explicit ContactScene(const ContactSceneDescription& description);
 
-    /// Moves on to `until_s`.
+    /// Simulates up to the time `until_s`.
     solve::IntegratorReport run(solve::IntegratorOptions integrator, double until_s,
                                 const RunOptions& options);
 
     const solve::MotionState& state() const { return state_; }
     int body_count() const { return static_cast<int>(bodies_.size()); }
     double weight_n(int body) const { return bodies_[static_cast<std::size_t>(body)].weight_n; }
-    Vec3 velocity(int body) const;  ///< of the centre of mass, m/s
+    Vec3 velocity(int body) const;  ///< velocity of the centre of mass, m/s
 
-    Vec3 support_n() const;        ///< of all obstacles on all bodies, friction included
-    Vec3 load_on_first_n() const;  ///< of the other bodies on body 0, friction included
-    double min_gap_m() const;      ///< of all contacts, negative: penetration
+    Vec3 support_n() const;  ///< total force of the obstacles on the bodies, friction included
+    Vec3 load_on_first_n() const;  ///< force of the other bodies on body 0, friction included
+    double min_gap_m() const;      ///< minimum over all contacts; negative: penetration
     double max_speed_m_per_s() const { return state_.v.rowwise().norm().maxCoeff(); }
 
     Shape shape(const ContactSceneDescription& description) const;
 
   private:
     std::vector<softbody::SoftBody> bodies_;
-    std::vector<int> first_;  // row of each body's first node
+    std::vector<int> first_;  // row of the first node of each body
     Eigen::VectorXd mass_kg_;
     std::vector<std::shared_ptr<contact::ObstacleContact>> on_obstacles_;
     std::vector<std::shared_ptr<contact::SurfaceContact>> between_;

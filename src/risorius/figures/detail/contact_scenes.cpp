@@ -48,12 +48,12 @@ Slope read_slope(const JsonCursor& json) {
     return slope;
 }
 
-/// Coulomb: a body stays until the slope is steeper than its friction angle.
+/// Coulomb's law: a body stays until the slope is steeper than its friction angle.
 double coulomb_acceleration(double radians, double friction, double gravity) {
     return gravity * std::max(0.0, std::sin(radians) - friction * std::cos(radians));
 }
 
-/// Mean acceleration down the slope between the two times, m/s^2.
+/// Mean acceleration down the slope between from_s and to_s, m/s^2.
 double slide(const Slope& slope, const SlopeRun& run, double radians, const RunOptions& options) {
     ContactSceneDescription scene;
     scene.bodies = {slope.body};

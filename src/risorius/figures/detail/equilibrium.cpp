@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "risorius/figures/detail/body_cases.h"
+#include "risorius/figures/detail/equilibrium_run.h"
 #include "risorius/figures/detail/progress.h"
-#include "risorius/figures/detail/settle.h"
 #include "risorius/softbody/integrator_description.h"
 
 namespace risorius::figures {
@@ -21,7 +21,7 @@ struct Case {
     bool to_equilibrium = true;
 };
 
-/// "length_along" has to be an axis the body has.
+/// Checks that "length_along" names an axis of the body.
 void check_axis(const JsonCursor& experiment, const softbody::BodyDescription& body) {
     const auto along = experiment.find("length_along");
     if (along && along->string() == "a3" && body.kind != softbody::Kind::kSolid)
@@ -56,7 +56,7 @@ struct Result {
     Extent extent{kUnmeasured, kUnmeasured};
 };
 
-/// Columns in which something was measured.
+/// Removes columns without any measured value.
 void drop_unmeasured(Table& table) {
     for (std::size_t c = table.columns.size(); c-- > 0;) {
         if (!std::all_of(table.rows.begin(), table.rows.end(),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What every kind of experiment is to the registry: a function from the experiment file to tables, charts, shapes and
-/// measurements. To add one: write such a function, list it in registry.cpp and make a folder in samples/figures.
+/// A kind of experiment, as the registry sees it: a function from the experiment file to tables, charts, shapes and measurements.
+/// To add a kind, write such a function, list it in registry.cpp and add a folder to samples/figures.
 #pragma once
 
 #include <functional>
@@ -15,15 +15,17 @@
 
 namespace risorius::figures {
 
+/// What a kind of experiment returns.
 struct Outcome {
-    FigureResult figure;    ///< id, title and checks are filled in by the registry
-    Measurements measured;  ///< what the file's checks may name
+    FigureResult figure;    ///< the registry fills in id, title and checks
+    Measurements measured;  ///< values that the checks of the file may name
 };
 
 using RunExperiment = void (*)(const JsonCursor& experiment, const RunOptions& options,
                                Outcome& outcome);
 
-/// JsonCursor::allow_keys with the keys every experiment file may have (format, version, figure, kind, title, checks).
+/// JsonCursor::allow_keys() with `own` and the keys that every experiment file may have (format, version, figure, kind, title,
+/// checks).
 void allow_experiment_keys(const JsonCursor& experiment, std::vector<std::string_view> own);
 
 }  // namespace risorius::figures

@@ -17,11 +17,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Of pictures, px: one object, and each of several in a row
+// Size of pictures, px: of a single object, and of each of several in a row
 constexpr int kWidth_px = 1200, kHeight_px = 900;
 constexpr int kRowWidth_px = 640, kRowHeight_px = 760, kWidestRow_px = 3200;
 constexpr int kMargin_px = 36;
-constexpr double kFlat = 0.35;  ///< height over width of what is better seen from above
+/// Objects with a smaller ratio of height to width are drawn from a higher viewpoint
+constexpr double kFlat = 0.35;
 constexpr double kFlatElevation_deg = 34;
 
 std::string csv_cell(const std::string& text) {
@@ -31,7 +32,7 @@ std::string csv_cell(const std::string& text) {
     return cell + "\"";
 }
 
-/// Keeps two results from becoming one file.
+/// Prevents two results from being written to the same file.
 class FileNames {
   public:
     void take(const std::string& kind, const std::string& name,
@@ -80,7 +81,7 @@ bool is_flat(const render::Object& object) {
     return size.z() < kFlat * std::max(size.x(), size.y());
 }
 
-/// In a plane of x and z, which is seen from its front.
+/// Whether the object lies in a plane of x and z, which is drawn from the front.
 bool is_upright_plane(const render::Object& object) {
     constexpr double kThin = 1e-6;
     const Vec3 size =
@@ -88,7 +89,7 @@ bool is_upright_plane(const render::Object& object) {
     return size.y() < kThin * std::max(size.x(), size.z());
 }
 
-/// Without the rows above and below that have nothing in them, but for a margin.
+/// Removes empty rows above and below, except for a margin.
 Image trimmed(const Image& image) {
     const auto is_empty = [&](int y) {
         const std::uint8_t* row = image.pixel(0, y);
@@ -123,7 +124,7 @@ Image picture_of(const std::vector<render::Object>& objects) {
     return trimmed(render::ObjectView(objects, options).draw());
 }
 
-// JSON has no infinity: an open end is null, and so is what was not measured.
+// JSON has no infinity: open ends of ranges and missing values become null.
 Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json check_json(const figures::Check& check) {
@@ -191,7 +192,7 @@ FigureFiles write_figure(const figures::FigureResult& figure, const fs::path& fo
                 picture.outline_name = shape.outline_name;
             if (picture.shade_ends[0].empty()) picture.shade_ends = shape.shade_ends;
         }
-        // Beside coloured ones an object of one colour has the middle of the scale, not an end
+        // Beside coloured objects, an object without shades gets the middle of the scale.
         if (!picture.shade_ends[0].empty())
             for (render::Object& object : row)
                 if (object.shade.empty())

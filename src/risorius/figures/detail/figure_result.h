@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What an experiment leaves: tables, charts, shapes to be drawn and checks against what was published. It writes nothing.
+/// The result of an experiment: tables, charts, shapes to draw, and checks against published values. Nothing here writes files.
 #pragma once
 
 #include <array>
@@ -14,45 +14,48 @@
 
 namespace risorius::figures {
 
+/// A table of numbers.
 struct Table {
-    std::string name;                         ///< of its CSV file
+    std::string name;                         ///< name of its CSV file
     std::vector<std::string> columns;         ///< with the unit: "time_s", "volume_change_percent"
     std::vector<std::vector<double>> rows;    ///< one number per column
     std::vector<std::string> row_names = {};  ///< empty, or a first column of names, one per row
 };
 
-/// A number against what it should be.
+/// A measured number and its accepted range.
 struct Check {
     std::string name;  ///< "hang length at 3^3"
     std::string unit;
     double measured = 0;
     double low = 0, high = 0;  ///< the accepted range; infinite ends allowed
-    std::string
-        published;     ///< what the thesis says, in words or numbers; empty when it says nothing
+    /// The published value in words or numbers; empty when nothing was published
+    std::string published;
     std::string note;  ///< why it differs, or what it means
-    /// Where the range comes from: "published", "law" (or closed form), "demand" (on the computation), "own" (around
-    /// the value first measured here); empty when the file does not say.
+    /// Where the range comes from: "published", "law" (a law or closed form), "demand" (a requirement on the computation), "own"
+    /// (around the value first measured here); empty when the file does not say.
     std::string range_from = "";
-    bool differs = false;  ///< from what was published, though within the range
+    bool differs = false;  ///< differs from the published value, although it is within the range
 
     bool passes() const { return measured >= low && measured <= high; }
 };
 
-/// A deformed object: the surface drawn transparent, its grid lines drawn as wires, as in the thesis.
+/// A deformed object as drawn in the thesis: a transparent surface, with its grid lines as wires.
 struct Shape {
-    std::string name;  ///< of its picture
+    std::string name;  ///< name of its picture
     std::string caption;
     Points positions;                       ///< V x 3, m, z up
     Triangles surface;                      ///< F x 3
     std::vector<std::array<int, 2>> wires;  ///< pairs of vertices
     std::vector<int> fixed;                 ///< vertices drawn as balls
-    std::vector<double> shade =
-        {};  ///< empty, or one value 0..1 per vertex for colour (softness, strain)
-    std::array<std::string, 2> shade_ends = {};  ///< what 0 and 1 mean: "softest", "stiffest"
-    Points outline = {};  ///< 2S x 3, m: ends of lines that show where it was at rest
+    /// Empty, or one colour value 0..1 per vertex (softness, strain)
+    std::vector<double> shade = {};
+    /// Labels of 0 and 1, such as "softest" and "stiffest"
+    std::array<std::string, 2> shade_ends = {};
+    Points outline = {};  ///< 2S x 3, m: ends of lines that show the rest shape
     std::string outline_name = "outline at rest";
 };
 
+/// All results of one experiment.
 struct FigureResult {
     std::string id;  ///< "9b"
     std::string title;
@@ -60,7 +63,7 @@ struct FigureResult {
     std::vector<plot::Chart> charts;
     std::vector<Shape> shapes;
     std::vector<Check> checks;
-    Json record = Json::object();  ///< what was really run: parameters, steps, costs
+    Json record = Json::object();  ///< parameters, steps and costs of the actual runs
 
     bool passes() const {
         for (const Check& check : checks)

@@ -18,7 +18,7 @@ struct CurveSet {
     muscle::MuscleCurves curves;
 };
 
-/// One of the four, and where it is drawn.
+/// One of the four curves, and its range in the chart.
 struct NamedCurve {
     std::string_view name;
     muscle::Curve muscle::MuscleCurves::*of;
@@ -33,7 +33,7 @@ const NamedCurve kCurves[] = {
     {"velocity", &muscle::MuscleCurves::velocity, {-1.1, 1}, "speed / vmax (lengthening > 0)"},
     {"tendon", &muscle::MuscleCurves::tendon, {-0.005, 0.06}, "tendon strain"}};
 
-/// The points of Zajac and Delp that a curve is to go by.
+/// Tabulated points of Zajac and Delp for a curve.
 muscle::PublishedTable points_for(std::string_view curve, bool all) {
     if (curve == "active") return muscle::published_active_force();
     if (curve == "passive") return muscle::published_passive_force();
@@ -94,7 +94,7 @@ void measure_curve(const CurveSet& set, const NamedCurve& named, const std::vect
     measured.add("slope_jump" + of, "", max_slope_jump(curve));
 }
 
-/// Curves over the same axis together, a colour for each set.
+/// A chart of curves over the same axis, with one colour per set.
 plot::Chart chart_of_curves(const std::string& name, const std::string& title,
                             const std::vector<CurveSet>& sets,
                             const std::vector<const NamedCurve*>& curves) {
@@ -125,7 +125,7 @@ plot::Chart chart_of_curves(const std::string& name, const std::string& title,
             points.x.push_back(x);
             points.y.push_back(f);
         }
-        if (points.x.empty()) continue;  // of tendons
+        if (points.x.empty()) continue;  // the tendon has no points
         chart.series.push_back(std::move(points));
     }
     return chart;

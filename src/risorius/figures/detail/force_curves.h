@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Kind "muscle-curves": published sets of a muscle's force curves side by side, with the table of Zajac and Delp as points.
+/// Kind "muscle-curves": published sets of force curves of muscle side by side, with the tabulated points of Zajac and Delp.
 ///
 ///   "sets": [{"name": "thelen", "label": "Thelen 2003", "curves": "thelen2003"}],           muscle/curve_sets.h
 ///   "at": {"active": [0.5, 1.2], "passive": [1.4], "velocity": [-0.5, 0.1], "tendon": [0.02]}
 ///
-/// Measured per set: value/<set>/<curve>/<x> where "at" asks for it; table_distance/<set>/<curve> (greatest from the
-/// points of the table, of the active, the passive and the shortening part of the velocity curve); slope_jump/<set>/<curve>
-/// (greatest where pieces meet).
+/// Measures per set: value/<set>/<curve>/<x> for every x of "at"; table_distance/<set>/<curve> (maximum distance from the
+/// tabulated points; for the active curve, the passive curve and the shortening part of the velocity curve);
+/// slope_jump/<set>/<curve> (maximum jump of the slope where pieces of a curve meet).
 #pragma once
 
 #include "risorius/figures/detail/experiment_kind.h"

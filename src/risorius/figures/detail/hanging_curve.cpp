@@ -5,14 +5,14 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/figures/detail/body_cases.h"
+#include "risorius/figures/detail/equilibrium_run.h"
 #include "risorius/figures/detail/progress.h"
-#include "risorius/figures/detail/settle.h"
 #include "risorius/softbody/integrator_description.h"
 
 namespace risorius::figures {
 namespace {
 
-constexpr int kDrawn = 201;  // points of the catenary
+constexpr int kDrawn = 201;  // points of the drawn catenary
 
 double length_of(const Points& x) {
     double length = 0;
@@ -20,7 +20,7 @@ double length_of(const Points& x) {
     return length;
 }
 
-/// How far the lowest point lies below the middle of the chord.
+/// Height of the middle of the chord above the lowest point.
 double sag_of(const Points& x) {
     return 0.5 * (x(0, 2) + x(x.rows() - 1, 2)) - x.col(2).minCoeff();
 }
@@ -70,7 +70,7 @@ plot::Series drawn(const Points& x, const std::string& label, plot::Mark mark) {
 Points catenary(const Vec3& from, const Vec3& to, double length_m, int points) {
     const Vec3 chord = to - from;
     const double d = chord.head<2>().norm(), v = chord.z();
-    // sqrt(L^2 - v^2) = 2 a sinh(d / 2a); with u = d / 2a, sinh(u) / u is what has to be met. It grows from 1.
+    // sqrt(L^2 - v^2) = 2 a sinh(d / 2a). With u = d / 2a, sinh(u) / u has to equal `wanted`; it grows from 1.
     const double wanted = std::sqrt(length_m * length_m - v * v) / d;
     double low = 0, high = 1;
     while (std::sinh(high) / high < wanted) high *= 2;
@@ -155,7 +155,7 @@ void run_hanging_curve(const JsonCursor& experiment, const RunOptions& options, 
                 drawn(catenary(body.rest.row(0), body.rest.row(nodes - 1), length, kDrawn),
                       "catenary", plot::Mark::kLine));
         if (i == 0 || i + 1 == bodies.size())
-            // The coarsest last, on top of the others
+            // The coarsest grid comes last and is drawn on top.
             chart.series.insert(chart.series.begin() + 1,
                                 drawn(x, names[i] + " nodes", plot::Mark::kPoints));
         Shape shape = shape_of(bodies[i], body, x, "hanging", names[i] + " nodes");

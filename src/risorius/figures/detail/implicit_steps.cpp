@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "risorius/figures/detail/body_cases.h"
+#include "risorius/figures/detail/equilibrium_run.h"
 #include "risorius/figures/detail/progress.h"
-#include "risorius/figures/detail/settle.h"
 #include "risorius/figures/detail/step_search.h"
 #include "risorius/softbody/integrator_description.h"
 
@@ -27,8 +27,8 @@ struct Plan {
     std::vector<std::string> grids;  ///< names
     std::vector<JsonCursor> bodies;  ///< one per grid
     std::vector<MethodRun> methods;
-    std::vector<std::array<std::size_t, 2>> ratios;  ///< of methods
-    std::vector<double> steps_s;                     ///< longest first
+    std::vector<std::array<std::size_t, 2>> ratios;  ///< pairs of methods to compare
+    std::vector<double> steps_s;                     ///< descending
     double duration_s = 0, allowed_error = 0;
     solve::IntegratorOptions to_rest;
     double rest_duration_s = 0;
@@ -98,13 +98,13 @@ Plan read_plan(const JsonCursor& experiment) {
 }
 
 struct Found {
-    double step_s = 0;             ///< 0: none of the table
-    double error_ratio = 0;        ///< with it
-    solve::IntegratorReport cost;  ///< of the one run with it
+    double step_s = 0;             ///< 0: no step of the table is accepted
+    double error_ratio = 0;        ///< at that step
+    solve::IntegratorReport cost;  ///< of the run at that step
 };
 
-/// Greatest distance of a node's mean place in the second half from `rest`, over the body's length; infinite when the
-/// motion diverges.
+/// Maximum over the nodes of the distance between the mean position in the second half and `rest`, over the body's length;
+/// infinite when the motion diverges.
 double error_with(const softbody::SoftBody& body, solve::IntegratorOptions integrator,
                   double step_s, double duration_s, const Points& rest, const RunOptions& options,
                   solve::IntegratorReport& cost) {
@@ -115,7 +115,7 @@ double error_with(const softbody::SoftBody& body, solve::IntegratorOptions integ
     body.system.place_fixed(state.t_s, state.x, state.v);
     Points sum = Points::Zero(rest.rows(), 3);
     double weight = 0;
-    // A long step may end beyond the duration, and then it alone is judged.
+    // A long step may end after the duration; then only its end counts.
     const long count = std::max(1L, std::lround(duration_s / step_s));
     for (long step = 1; step <= count; ++step) {
         options.monitor.throw_if_stopped();
@@ -145,7 +145,7 @@ void add_ratios(const Plan& plan, const std::vector<Found>& found, Outcome& outc
     const std::size_t grids = plan.grids.size(), methods = plan.methods.size();
     for (const auto& [above, below] : plan.ratios)
         for (std::size_t g = 0; g < grids; ++g) {
-            // A method without any usable step is worse than the shortest of the table.
+            // A method without an accepted step counts as worse than the smallest step of the table.
             const double divisor = found[g * methods + below].step_s;
             outcome.measured.add(
                 "ratio/" + plan.methods[above].name + "/" + plan.methods[below].name + "/" +
@@ -155,7 +155,7 @@ void add_ratios(const Plan& plan, const std::vector<Found>& found, Outcome& outc
         }
 }
 
-// The bodies in equilibrium, as a table and as shapes.
+// The equilibria of the bodies, as a table and as shapes.
 Table equilibrium_table(const Plan& plan, const std::vector<EquilibriumRun>& rest,
                         Outcome& outcome) {
     Table equilibrium{.name = "rest", .columns = {"force_ratio", "speed_per_s"}, .rows = {}};
@@ -165,7 +165,7 @@ Table equilibrium_table(const Plan& plan, const std::vector<EquilibriumRun>& res
         outcome.measured.add("rest_force_ratio/" + plan.grids[g], "", rest[g].force_ratio);
         const softbody::BodyDescription description = softbody::read_body(plan.bodies[g]);
         const softbody::SoftBody body = softbody::build_body(description);
-        // One row, to be compared
+        // The equilibria stand in one row of a picture for comparison.
         outcome.figure.shapes.push_back(shape_of(description, body, rest[g].x, "at-rest",
                                                  "At rest, " + plan.grids[g] + " nodes"));
         outcome.figure.shapes.back().outline = rest_outline(body);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Kind "implicit-steps": the longest step with which an implicit method still shows the right motion of a body, at several
-/// resolutions; the thesis' table of section 5.4.
+/// Kind "implicit-steps": the largest time step at which an implicit method still reproduces the motion of a body, at several
+/// resolutions; the table of section 5.4 of the thesis.
 ///
 ///   "body": {...}, "grids": [[7, 7], [9, 9], [11, 11]], "duration_s": 10, "allowed_error": 0.05,
 ///   "steps": {"longest_s": 5, "shortest_s": 2e-3, "per_decade": 12},
@@ -10,10 +10,10 @@
 ///                "change": {...}, "published_s": [0.0325, 0.0292, 0.026]}],
 ///   "ratios": [["newton", "lagged"]]
 ///
-/// Such methods do not diverge to infinity, they only go wrong; the thesis' author judged by eye. Here a step counts when
-/// the mean shape of the second half of the motion lies within `allowed_error` of the body's length of where the body
-/// comes to rest ("rest" says how that is found), each node by itself. Steps are tried from the longest down; 0 stands
-/// for none. Measured: step_s/<method>/<grid>, ratio/<method>/<method>/<grid>.
+/// Implicit methods do not diverge, they only become inaccurate; the author of the thesis judged this by eye. Here a step is
+/// accepted when the mean shape over the second half of the motion lies within `allowed_error` times the body's length of the
+/// equilibrium, for every node. "rest" describes how the equilibrium is computed. Steps are tried from the largest down; 0 means
+/// that none is accepted. Measures: step_s/<method>/<grid>, ratio/<method>/<method>/<grid>.
 #pragma once
 
 #include "risorius/figures/detail/experiment_kind.h"

@@ -20,7 +20,7 @@ muscle::Equilibrium equilibrium_at(const softbody::MuscleDescription& muscle, do
                                length * p.optimal_length_m + p.tendon_slack_m);
 }
 
-/// Of fibres to the tendon.
+/// Cosine of the angle between the fibres and the tendon.
 double cos_pennation(const softbody::MuscleDescription& muscle, double fibre_length) {
     const double w = std::sin(muscle.musculotendon.pennation_deg * std::numbers::pi / 180);
     return std::cos(std::asin(std::min(1.0, w / fibre_length)));
@@ -40,7 +40,7 @@ double line_tension_in_matrix(const softbody::MuscleDescription& muscle, double 
     const double thickness = std::sin(p.pennation_deg * std::numbers::pi / 180);
     const double stiffness =
         muscle.moduli.mu_pa * volume_m3 / (belly * p.optimal_length_m * p.f0_n);
-    // At a span of the belly over l0
+    // `span`: length of the belly over l0
     const auto pull = [&](double span) {
         const double l = std::hypot(span, thickness), s = span / belly;
         return (activation * curves.active.value(l) + curves.passive.value(l)) * span / l +

@@ -12,7 +12,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Of the eigenvalues of a complex matrix: those of ((Re, -Im), (Im, Re)) are they and their conjugates.
+/// Largest |eigenvalue| of a complex matrix. The eigenvalues of ((Re, -Im), (Im, Re)) are those of the matrix and their
+/// conjugates.
 double largest(const Eigen::Matrix4cd& matrix) {
     Eigen::MatrixXd doubled(8, 8);
     for (int i = 0; i < 4; ++i)
@@ -26,7 +27,7 @@ double largest(const Eigen::Matrix4cd& matrix) {
     return max;
 }
 
-/// Largest root of z^4 = c3 z^3 + c2 z^2 + c1 z + c0.
+/// Largest |root| of z^4 = c3 z^3 + c2 z^2 + c1 z + c0.
 double max_root(Complex c3, Complex c2, Complex c1, Complex c0) {
     Eigen::Matrix4cd companion = Eigen::Matrix4cd::Zero();
     companion.row(0) << c3, c2, c1, c0;
@@ -34,8 +35,8 @@ double max_root(Complex c3, Complex c2, Complex c1, Complex c0) {
     return largest(companion);
 }
 
-/// Stoermer's r+ = 2 r - r- + h^2 a with the damping of (r - r-)/h. A pair of conjugate eigenvalues is one oscillator of
-/// w^2 = |lambda|^2 and d = -2 Re lambda; a real one is taken for pure damping.
+/// Stoermer's method r+ = 2 r - r- + h^2 a with the damping of (r - r-)/h. A pair of conjugate eigenvalues is one oscillator with
+/// w^2 = |lambda|^2 and d = -2 Re lambda; a real eigenvalue counts as pure damping.
 double verlet_growth(Complex lambda, double h) {
     const bool oscillates = std::abs(lambda.imag()) > 1e-9 * std::abs(lambda);
     const double w2 = oscillates ? std::norm(lambda) : 0;
@@ -95,7 +96,7 @@ double growth_per_step(solve::Method method, Complex lambda, double step_s) {
         case solve::Method::kRungeKutta4:
             return std::abs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0))));
         case solve::Method::kCashKarp: {
-            // Six stages of order 5: the last coefficient is the product of the weights along the chain of stages.
+            // A method of order 5 with six stages: the last coefficient is the product of the weights along the chain of stages.
             const double last = 512.0 / 1771 * 253.0 / 4096 * 35.0 / 27 * 6.0 / 5 * 9.0 / 40 / 5;
             const Complex z2 = z * z;
             return std::abs(1.0 + z + z2 / 2.0 + z2 * z / 6.0 + z2 * z2 / 24.0 +
@@ -106,7 +107,7 @@ double growth_per_step(solve::Method method, Complex lambda, double step_s) {
         case solve::Method::kAdamsBashforth:
             return max_root(1.0 + 55.0 / 24 * z, -59.0 / 24 * z, 37.0 / 24 * z, -9.0 / 24 * z);
         case solve::Method::kAdamsMoulton: {
-            // Predict, evaluate, correct, evaluate.
+            // Predict, evaluate, correct, evaluate (PECE).
             const Complex p = 9.0 / 24 * z;
             return max_root(1.0 + p * (1.0 + 55.0 / 24 * z) + 19.0 / 24 * z,
                             -p * 59.0 / 24.0 * z - 5.0 / 24 * z, p * 37.0 / 24.0 * z + 1.0 / 24 * z,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Small motions of a body about a state, and how explicit methods treat them: what linear theory says of stable steps.
+/// Small motions of a body about a state, and the linear stability of explicit methods for them.
 ///
 ///   M d'' = - K d - D d'     lambda   eigenvalues of [0 1; -M^-1 K  -M^-1 D], 1/s     z = h lambda
-///   a method multiplies a motion by R(z) every step
+///   a method multiplies a mode by R(z) in every step
 ///
 /// Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I and II: stability domains.
 #pragma once
@@ -16,13 +16,13 @@
 
 namespace risorius::figures {
 
-/// Eigenvalues about (x, v = 0), by central differences of the forces; dense, for some hundred free nodes at most.
+/// Eigenvalues lambda about (x, v = 0), by central differences of the forces. Dense: for a few hundred free nodes at most.
 std::vector<std::complex<double>> small_motions(const softbody::SoftBody& body, const Points& x);
 
-/// |R| of the largest of the method's roots for one motion. Explicit methods of fixed step only.
+/// Growth factor per step: the largest |root| of the method for one mode. Only explicit methods with a fixed step.
 double growth_per_step(solve::Method method, std::complex<double> lambda, double step_s);
 
-/// Whether no motion grows by more than `factor` over the duration.
+/// Whether no mode grows by more than `factor` over the duration.
 bool stays_bounded(solve::Method method, const std::vector<std::complex<double>>& lambdas,
                    double step_s, double duration_s, double factor);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What an experiment measured, by name, and the checks its file makes of it: bands and published values are data.
+/// Named measurements of an experiment, and their checks. The accepted ranges and published values are data of the experiment
+/// file.
 ///
 ///   "checks": [{"measured": "peak_volume_change_percent/3x3x3", "low": 8, "high": 13, "range": "published",
 ///               "published": "up to ~10 %", "differs": true, "note": "..."}]
@@ -16,15 +17,15 @@ namespace risorius::figures {
 
 class Measurements {
   public:
-    /// `name` ends in its unit, then what it was varied by: "hang_length_ratio/3x3x3". The same name twice is a mistake
-    /// of the program.
+    /// Adds a measurement. `name` ends in its unit, followed by what was varied: "hang_length_ratio/3x3x3". A name may be added
+    /// only once.
     void add(const std::string& name, const std::string& unit, double value);
 
-    /// Reads the "checks" of the experiment file (none when it has none). A name that was not measured is an Error that
-    /// lists what was.
+    /// Reads the "checks" of the experiment file, if any. Throws Error for a name that was not measured; the message lists the
+    /// measured ones.
     std::vector<Check> check(const JsonCursor& experiment) const;
 
-    /// One row per measurement.
+    /// A table with one row per measurement.
     Table table() const;
 
   private:

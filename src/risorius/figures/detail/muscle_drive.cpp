@@ -10,7 +10,8 @@ namespace risorius::figures {
 namespace {
 
 constexpr double kLatest_s = 1e6;
-constexpr double kPiece_s = 0.25e-3;  ///< activation is straight between multiples of it
+/// Activation is interpolated linearly between multiples of this time
+constexpr double kPiece_s = 0.25e-3;
 
 using Knots = std::vector<std::pair<double, double>>;  ///< time, value
 
@@ -63,7 +64,7 @@ Knots excitation_of(const Pulses& pulses) {
     return knots;
 }
 
-/// What activation makes of an excitation that jumps.
+/// The activation that follows a piecewise constant excitation.
 Knots follow(const Knots& excitation, const muscle::ActivationTimes& times, double until_s) {
     Knots activation{{0, 0}};
     double t_s = 0, a = 0;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What a muscle is told to do over time: activation as it stands, or excitation that activation follows, and its length.
+/// The input of a muscle over time: its length, and its activation, which is given directly or follows an excitation.
 ///
-///   "drive": {"activation": [[0, 0], [0.001, 1]]}                      held from each time on
+///   "drive": {"activation": [[0, 0], [0.001, 1]]}                      piecewise constant: [time, value], ...
 ///            {"excitation": [[0, 0], [0.01, 1]], "t_act_s": 0.010, "t_deact_s": 0.040}
-///            {"pulses": {"first_s": 0.01, "rate_hz": 20, "count": 8, "width_s": 0.005}, "t_act_s": ..}     of excitation 1
-///   "length": [[0, 1], [0.2, 1], [0.201, 0.9375]]                      normalised (muscle_runs.h), straight between times
+///            {"pulses": {"first_s": 0.01, "rate_hz": 20, "count": 8, "width_s": 0.005}, "t_act_s": ..}     pulses of excitation 1
+///   "length": [[0, 1], [0.2, 1], [0.201, 0.9375]]                      normalised (muscle_runs.h), piecewise linear
 #pragma once
 
 #include <functional>
@@ -30,10 +30,10 @@ struct Drive {
     std::optional<Pulses> pulses;
 };
 
-/// `until_s` is how far activation has to be known.
+/// Reads a drive. Activation is computed up to the time `until_s`.
 Drive read_drive(const JsonCursor& json, double until_s);
 
-/// Straight between its times, held before and after.
+/// Reads a piecewise linear function of time, which is constant before its first and after its last knot.
 std::function<double(double t_s)> read_course(const JsonCursor& json, Range range);
 
 }  // namespace risorius::figures

@@ -17,8 +17,8 @@ constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
 
 struct Quantity {
     std::string_view name;
-    const char* column;  ///< of tables, behind the run's name
-    const char* label;   ///< of the axis
+    const char* column;  ///< name of the column in tables, after the name of the run
+    const char* label;   ///< label of the axis
     double (*of)(const MuscleSample& sample);
 };
 
@@ -53,7 +53,7 @@ struct HistoryPlan {
     double end_s() const { return phases.back().until_s; }
 };
 
-/// The run's own, or else the experiment's.
+/// The value of the run, or else that of the experiment.
 JsonCursor own_or_common(const JsonCursor& run, const JsonCursor& experiment,
                          std::string_view key) {
     const auto own = run.find(key);
@@ -93,7 +93,7 @@ HistoryPlan read_history(const JsonCursor& experiment) {
     return plan;
 }
 
-/// When tension rises above (or falls below) a height after sample `from`, between the two samples; s.
+/// Time after sample `from` at which tension rises above (or falls below) a height, interpolated between samples, s.
 double time_of(const std::vector<MuscleSample>& samples, std::size_t from, double height,
                bool rising) {
     for (std::size_t i = from + 1; i < samples.size(); ++i) {
@@ -133,7 +133,7 @@ void measure_pulses(const std::vector<MuscleSample>& samples, const Pulses& puls
         "half_relaxation_s" + of, "s",
         time_of(samples, peak, samples[peak].tension_f0 / 2, /*rising=*/false) - samples[peak].t_s);
     if (pulses.count < 2) return;
-    // From the last pulse but one to the last
+    // Between the last two pulses
     const double from_s = pulses.start_s(pulses.count - 2), to_s = pulses.start_s(pulses.count - 1);
     double min = std::numeric_limits<double>::infinity(), max = 0, sum = 0, time_s = 0;
     for (std::size_t i = 1; i < samples.size(); ++i) {

@@ -11,7 +11,7 @@
 namespace risorius::figures {
 namespace {
 
-/// The insertion's plate while a load hangs on it: moves evenly during a step.
+/// The plate of the insertion under a load: moves with constant speed during a step.
 struct LoadedPlate {
     bool free = false;
     double from_s = 0, from_m = 0;
@@ -34,7 +34,7 @@ MuscleSample sample_of(const softbody::MuscleBody& muscle, const solve::MotionSt
 
 MuscleMotion move_muscle(const softbody::MuscleDescription& description, const MotionPlan& plan,
                          const RunOptions& options) {
-    // The plate obeys the plan until the load hangs on it
+    // The plate follows the plan until the load hangs on it.
     const auto plate = std::make_shared<LoadedPlate>();
     const auto planned = plan.task.lengthening_m;
     const auto plate_at = [plate, planned](double t_s) {
@@ -50,7 +50,7 @@ MuscleMotion move_muscle(const softbody::MuscleDescription& description, const M
                          rest_volume);
     };
 
-    // From equilibrium
+    // The motion starts in equilibrium.
     MuscleMotion motion;
     solve::IntegratorOptions how{.method = solve::Method::kQuasiStatic,
                                  .step_s = 1,
@@ -70,7 +70,7 @@ MuscleMotion move_muscle(const softbody::MuscleDescription& description, const M
         }
         const auto steps =
             static_cast<int>(std::ceil((phase.until_s - begin_s) / phase.step_s * (1 - 1e-9)));
-        how.step_s = phase.until_s - begin_s;  // one piece, however it rounds
+        how.step_s = phase.until_s - begin_s;  // a single step, regardless of rounding
         const auto integrator = solve::make_integrator(how);
         for (int i = 1; i <= steps; ++i) {
             options.monitor.throw_if_stopped();

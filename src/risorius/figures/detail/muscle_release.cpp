@@ -12,12 +12,12 @@ namespace risorius::figures {
 namespace {
 
 constexpr double kGravity_m_per_s2 = 9.81;
-constexpr double kSlowest = 0.01;  ///< speed a release is given time for, vmax l0
-constexpr double kPatience = 3;    ///< times the steps it should take
-constexpr double kStepOfSwing =
-    0.2;  ///< of the load on the tendons, over 1 / its angular frequency
+constexpr double kSlowest = 0.01;  ///< lowest expected speed, vmax l0; limits the duration
+constexpr double kPatience = 3;    ///< ratio of the largest number of steps to the expected one
+/// Step of a load on the tendons, over 1 / its angular frequency
+constexpr double kStepOfSwing = 0.2;
 
-/// Normalised length of the musculotendon at rest whose fibres have a length: the tendon adds its strain.
+/// Normalised length of the musculotendon in equilibrium whose fibres have the given length: the tendon adds its strain.
 double length_with_fibres(const softbody::MuscleDescription& muscle, double fibre,
                           double activation) {
     double low = 0.1, high = 3;
@@ -28,7 +28,7 @@ double length_with_fibres(const softbody::MuscleDescription& muscle, double fibr
     return (low + high) / 2;
 }
 
-/// Between the two samples beside the length, whichever way it is passed.
+/// Interpolates between the two samples on either side of the length, in both directions of motion.
 Passing passing_of(const softbody::MuscleDescription& muscle, MuscleMotion motion, double at) {
     const double max_m_per_s =
         muscle.musculotendon.max_speed_hz * muscle.musculotendon.optimal_length_m;
@@ -48,7 +48,7 @@ Passing passing_of(const softbody::MuscleDescription& muscle, MuscleMotion motio
     return passing;
 }
 
-/// Past the length by a step or two.
+/// True a step or two after the length has been passed.
 std::function<bool(const MuscleSample&)> beyond(double at, bool shortens) {
     return [=](const MuscleSample& now) { return shortens ? now.stretch < at : now.stretch > at; };
 }
@@ -94,7 +94,7 @@ Passing released_with_load(const softbody::MuscleDescription& muscle, const Rele
 }
 
 Hill hill_through(const std::vector<double>& force_f0, const std::vector<double>& speed) {
-    // (1 - P) / v = (P + a) / b is a straight line over P
+    // (1 - P) / v = (P + a) / b is linear in P
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
     for (std::size_t i = 0; i < speed.size(); ++i) {
         const double x = force_f0[i], y = (1 - x) / speed[i];

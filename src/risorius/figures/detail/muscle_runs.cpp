@@ -15,17 +15,17 @@ softbody::MuscleDescription changed_muscle(const JsonCursor& muscle,
                                            const std::string& run_name) {
     Json changed = muscle.json();
     if (change) {
-        change->keys();  // an object
+        change->keys();  // must be an object
         changed.merge_patch(change->json());
     }
     const JsonCursor json = JsonCursor::from_json(Json{{"muscle", changed}},
                                                   muscle.file().string() + " (" + run_name + ")")
                                 .at("muscle");
-    json.at("grid");  // which a caller of read_muscle may know better; here none does
+    json.at("grid");  // read_muscle() lets its caller supply the grid; here the file must have it
     return softbody::read_muscle(json);
 }
 
-/// Of a straight belly, at rest; 0 of any other.
+/// Length of a straight belly at rest; 0 for any other shape.
 double belly_length_m(const softbody::MuscleDescription& muscle) {
     using Form = muscle::MuscleShape::Form;
     if (!muscle.shape) return muscle.length_m;
@@ -44,7 +44,7 @@ std::vector<int> rim(const tissue::GridShape& grid, int m) {
     return nodes;
 }
 
-/// Of the section halfway along the grid, m^2.
+/// Area of the section halfway along the grid, m^2.
 double middle_area(const tissue::GridShape& grid, const Points& x) {
     const std::vector<int> below = rim(grid, (grid.m - 1) / 2), above = rim(grid, grid.m / 2);
     Vec3 twice = Vec3::Zero();

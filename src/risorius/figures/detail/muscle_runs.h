@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Variations of one muscle for the kinds that experiment on it: an experiment file gives a muscle (softbody/muscle_body.h) and
-/// what each run changes in it.
+/// Variations of one muscle: an experiment file gives a muscle (softbody/muscle_body.h), and each run gives changes to it.
 ///
 ///   "muscle": {...}, "runs": [{"name": "k-0.2", "label": "K = 0.2 MPa", "change": {"moduli": {"bulk_pa": 2e5}}}]
 ///
-/// Lengths of a musculotendon are normalised as in the thesis' figure 11a: (distance of the plates - lTs) / l0, which is 1 at
+/// Lengths of a musculotendon are normalised as in figure 11a of the thesis: (distance of the plates - lTs) / l0. This is 1 at
 /// rest for a belly of its optimal length.
 #pragma once
 
@@ -22,38 +21,39 @@ namespace risorius::figures {
 struct MuscleRun {
     std::string name, label;
     softbody::MuscleDescription muscle;
-    JsonCursor json;  ///< of the run, for what else a kind reads there
+    JsonCursor json;  ///< the run in the file, for further keys of a kind
 };
 
-/// "runs" of the experiment: straight bellies between two plates, each with keys "name", "label", "change" and those a kind adds.
+/// Reads the "runs" of the experiment: straight bellies between two plates. Each run has the keys "name", "label", "change" and
+/// `more_keys`.
 std::vector<MuscleRun> read_muscle_runs(const JsonCursor& experiment,
                                         const std::vector<std::string_view>& more_keys = {});
 
-/// The same of muscles of any shape, held in any way.
+/// The same for muscles of any shape and any kind of anchors.
 std::vector<MuscleRun> read_runs_of_any_muscle(const JsonCursor& experiment,
                                                const std::vector<std::string_view>& more_keys = {});
 
-/// Tension is known of moving muscles with elastic tendons. Throws Error.
+/// Throws Error for rigid tendons, because the tension of a moving muscle is measured on its elastic tendons.
 void require_elastic_tendons(const MuscleRun& run);
 
-/// "6x6x6 cells, K = 5 MPa"
+/// Describes grid and bulk modulus: "6x6x6 cells, K = 5 MPa".
 std::string discretisation_of(const softbody::MuscleDescription& muscle);
 
-inline constexpr Range kNormalisedLengths{0.1, 3};  ///< a file may ask for
+inline constexpr Range kNormalisedLengths{0.1, 3};  ///< allowed lengths in a file
 
-/// How far the plates of a muscle at rest have to be moved apart for a normalised length, m; and back.
+/// Conversion between a normalised length and the change of the distance of the plates from rest, m.
 double lengthening_m(const softbody::MuscleDescription& muscle, double normalised_length);
 double normalised_length(const softbody::MuscleDescription& muscle, double lengthening_m);
 
-/// Whether nothing moves it: no node is out of balance by more than 1e-9 F0. A muscle between slack tendons floats, and no
-/// equation says where.
+/// Whether the muscle is in equilibrium without any load: the residual force on every node is at most 1e-9 F0. A muscle between
+/// slack tendons floats, so its position is undetermined.
 bool is_at_rest(const softbody::MuscleBody& muscle, const solve::MotionState& state);
 
-/// What a muscle looks like: belly, tendons as lines, plates.
+/// The muscle for drawing: belly, tendons as lines, plates.
 Shape muscle_shape(const softbody::MuscleBody& muscle, double t_s, const Points& x,
                    const std::string& name, const std::string& caption);
 
-/// Width of the middle of the belly over that at rest: root of the ratio of its sections' areas.
+/// Width of the middle of the belly over that at rest: square root of the ratio of section areas.
 double bulge(const softbody::SoftBody& body, const Points& x);
 
 }  // namespace risorius::figures

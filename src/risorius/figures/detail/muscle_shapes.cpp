@@ -12,12 +12,12 @@ namespace risorius::figures {
 namespace {
 
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
-constexpr double kStep =
-    0.05;  ///< of l0, by which anchors come together from one equilibrium to the next
+/// Displacement of the anchors between consecutive equilibria, l0
+constexpr double kStep = 0.05;
 
 struct ShapesPlan {
     std::vector<MuscleRun> runs;
-    std::vector<double> shortening;  ///< of each run
+    std::vector<double> shortening;  ///< one per run
     double activation = 1;
 };
 
@@ -40,7 +40,7 @@ struct Contraction {
     double opening_ratio = kNotMeasured, filled_ratio = kNotMeasured;
 };
 
-/// Area within a ring: the loop of inner nodes halfway through its thickness.
+/// Area inside a ring, bounded by the loop of inner nodes halfway through its thickness.
 double opening(const tissue::GridShape& grid, const Points& x) {
     const auto corner = [&](int m) -> Vec3 {
         const int i = m % grid.m;

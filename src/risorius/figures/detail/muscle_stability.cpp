@@ -17,7 +17,7 @@ namespace risorius::figures {
 namespace {
 
 constexpr int kFewestNodes = 2, kMaxNodes = 40;  // per edge
-/// What linear theory lets a motion grow by before it counts as unstable.
+/// Growth of a mode above which linear theory counts it as unstable.
 constexpr double kGrowthToInstability = 1e6;
 
 struct Plan {
@@ -98,7 +98,7 @@ Plan read_plan(const JsonCursor& experiment) {
     return plan;
 }
 
-/// Mean pull over F0 during the second half, NaN when the motion diverges.
+/// Mean pull over F0 in the second half, NaN when the motion diverges.
 double mean_tension(const Plan& plan, double step_s, const RunOptions& options) {
     constexpr int kSamples = 1000;
     const softbody::MuscleBody muscle = plan.build(*plan.tension_edge);
@@ -118,7 +118,7 @@ double mean_tension(const Plan& plan, double step_s, const RunOptions& options) 
     return sum / kSamples;
 }
 
-/// Down the table and on below its end: linear theory costs nothing.
+/// Searches down the table and beyond its end, because linear theory is cheap.
 double longest_of_linear_theory(solve::Method method,
                                 const std::vector<std::complex<double>>& lambdas,
                                 const StepSearch& search) {
@@ -136,7 +136,7 @@ struct Results {
     std::vector<double> tension_steps_s, tension;
 };
 
-/// Everything that is run, the most work first, so that threads end together.
+/// Runs everything, most work first, so that threads finish together.
 Results run_all(const Plan& plan, const RunOptions& options) {
     const std::size_t methods = plan.methods.size();
     Results results;
@@ -155,7 +155,7 @@ Results run_all(const Plan& plan, const RunOptions& options) {
         std::function<void()> run;
     };
     std::vector<Task> tasks;
-    // A node costs the same everywhere; the number of steps grows with the nodes as their limit falls.
+    // The cost of a step is proportional to the nodes; the number of steps grows with the nodes because the stable step falls.
     const auto work = [](int edge, double duration_s) {
         return duration_s * std::pow(node_count(edge), 1.75);
     };
@@ -213,7 +213,7 @@ double exponent(const std::vector<double>& x, const std::vector<double>& y) {
     return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-/// Geometric mean of a/b over the places where both are positive.
+/// Geometric mean of a/b over the indices where both are positive.
 double mean_ratio(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;
     int count = 0;
@@ -276,11 +276,11 @@ void show_limits(const Plan& plan, const Results& results, Outcome& outcome) {
     outcome.figure.charts.push_back(std::move(chart));
 }
 
-/// By how many steps of the table the limit of a longer run differs.
+/// Tables by how many entries of the step table the limit of a longer run differs.
 void show_longer(const Plan& plan, const Results& results, Outcome& outcome) {
     const std::size_t methods = plan.methods.size();
     const std::vector<double>& table = plan.search.steps_s;
-    const auto place = [&](double step_s) {  // none is behind the last
+    const auto place = [&](double step_s) {  // without an accepted step: one after the last
         return std::find(table.begin(), table.end(), step_s) - table.begin();
     };
     for (std::size_t e = 0; e < plan.longer_edges.size(); ++e) {
@@ -326,7 +326,7 @@ void show_tension(const Plan& plan, const Results& results, Outcome& outcome) {
     Table table{.name = "tension", .columns = {"step_s", "mean_tension_f0"}, .rows = {}};
     plot::Series series{.label = of, .x = {}, .y = {}, .mark = plot::Mark::kLinePoints};
     double coarsest = std::numeric_limits<double>::quiet_NaN();
-    double right_s = 0;  // longest step from which on all are within 1 % of the finest
+    double right_s = 0;  // largest step from which on all smaller ones are within 1 % of the finest
     for (std::size_t i = 0; i < steps.size(); ++i) {
         if (std::isnan(results.tension[i])) continue;
         if (std::isnan(coarsest)) coarsest = results.tension[i];

@@ -26,11 +26,11 @@ struct Picture {
 
 struct StaticsPlan {
     std::vector<MuscleRun> runs;
-    std::vector<double> lengths;  ///< rising
+    std::vector<double> lengths;  ///< ascending
     double activation = 1, range_above_peak = 0.5;
     std::vector<Picture> pictures;
-    std::string over;        ///< what the runs are charted over; empty: they are not
-    std::vector<double> at;  ///< of each run
+    std::string over;  ///< label of the axis over which the runs are charted; empty: no such chart
+    std::vector<double> at;  ///< one per run
     std::optional<double> load_f0;
 };
 
@@ -42,7 +42,7 @@ std::vector<double> read_lengths(const JsonCursor& json) {
         const double to = json.at("to").number({from, kNormalisedLengths.max});
         const double step =
             json.at("step").number({(to - from) / kMaxLengths, kNormalisedLengths.max});
-        // Steps are counted, so that a length is the number its decimals say
+        // Lengths are computed from a counter, so that no rounding error accumulates.
         const int count = step > 0 ? static_cast<int>(std::floor((to - from) / step + 1e-9)) : 0;
         for (int i = 0; i <= count; ++i)
             lengths.push_back(std::round((from + i * step) * 1e9) / 1e9);
@@ -155,7 +155,7 @@ TensionCurves line_curves(const StaticsPlan& plan, const MuscleRun& run) {
     return line;
 }
 
-/// Greatest distance of total and passive tension from fibre and matrix side by side and their tendon.
+/// Maximum distance of total and passive tension from those of fibre and matrix in parallel, in series with the tendon.
 double matrix_error(const StaticsPlan& plan, const MuscleRun& run, const TensionCurves& solid) {
     const double volume_m3 = StillMuscle(run.muscle, 0).rest_volume_m3();
     double worst = 0;
@@ -169,7 +169,7 @@ double matrix_error(const StaticsPlan& plan, const MuscleRun& run, const Tension
     return worst;
 }
 
-/// Measures a run and tabulates it.
+/// Measures a run and adds its table.
 TensionCurves measure(const StaticsPlan& plan, const MuscleRun& run, const StaticsResult& result,
                       Outcome& outcome) {
     Table table{.name = "tension_" + run.name,
@@ -217,7 +217,7 @@ TensionCurves measure(const StaticsPlan& plan, const MuscleRun& run, const Stati
 
 constexpr const char* kLengthLabel = "(distance of the plates - tendon slack length) / l0";
 
-/// Within the lengths of the plan.
+/// Tabulated points within the lengths of the plan.
 plot::Series points_of(const StaticsPlan& plan, const muscle::PublishedTable& table,
                        const std::string& label) {
     plot::Series points{.label = label, .mark = plot::Mark::kPoints, .colour = 6};
@@ -264,7 +264,7 @@ plot::Chart differences(const StaticsPlan& plan, const std::vector<TensionCurves
     return chart;
 }
 
-/// The runs' active forces together, and their peaks, ranges and speeds over what sets them apart.
+/// Charts of the active forces of all runs, and of peak, range and speed over the varied parameter.
 std::vector<plot::Chart> over_parameter(const StaticsPlan& plan,
                                         const std::vector<StaticsResult>& results,
                                         const std::vector<TensionCurves>& solids) {

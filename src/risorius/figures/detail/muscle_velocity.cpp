@@ -61,7 +61,7 @@ double law(const ReleasePlan& plan, const MuscleRun& run, double speed) {
                                plan.bench.activation);
 }
 
-/// Those of one run that shorten and got there.
+/// The shortening releases of one run that reached the length.
 struct Shortening {
     std::vector<double> force_f0, speed, power;
 };
@@ -118,7 +118,7 @@ void measure(const ReleasePlan& plan, const MuscleRun& run, const std::vector<Pa
                          found.speed[static_cast<std::size_t>(best)]);
 }
 
-/// a fl fv(v) + fp + b v of every run between two speeds, over speed or speed over force.
+/// Adds curves of a fl fv(v) + fp + b v for every run between two speeds; as force over speed, or speed over force.
 void add_laws(const ReleasePlan& plan, double from, double to, bool over_force,
               plot::Chart& chart) {
     for (std::size_t r = 0; r < plan.runs.size(); ++r) {
@@ -135,7 +135,7 @@ void add_laws(const ReleasePlan& plan, double from, double to, bool over_force,
     }
 }
 
-/// Between two speeds, over speed or speed over force.
+/// Published points between two speeds; as force over speed, or speed over force.
 plot::Series published_points(double from, double to, bool over_force) {
     plot::Series series{.label = "Zajac/Delp table", .mark = plot::Mark::kPoints, .colour = 6};
     for (const auto& [speed, force] : muscle::published_velocity_force()) {
@@ -146,7 +146,7 @@ plot::Series published_points(double from, double to, bool over_force) {
     return series;
 }
 
-/// Force over the speed of the fibres, and the law there.
+/// Chart of force over the speed of the fibres, with the law.
 plot::Chart force_velocity(const ReleasePlan& plan,
                            const std::vector<std::vector<Passing>>& passings) {
     plot::Chart chart{
@@ -194,7 +194,7 @@ plot::Chart load_velocity(const ReleasePlan& plan,
     return chart;
 }
 
-/// How far the weights of the first run come over time.
+/// Chart of the displacement of the weights of the first run over time.
 plot::Chart lift(const ReleasePlan& plan, const std::vector<Passing>& passings) {
     plot::Chart chart{.name = "lift",
                       .title = "Lift of weights: " + plan.runs.front().label,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Counts finished work of several threads and tells whoever watches, one call at a time.
+/// Counts the finished work of several threads and reports it to the progress monitor, one call at a time.
 #pragma once
 
 #include <mutex>
@@ -14,7 +14,7 @@ class Progress {
   public:
     Progress(const RunOptions& options, double whole) : options_(options), whole_(whole) {}
 
-    /// Adds to what is done. Throws Interrupted when asked to stop.
+    /// Adds finished work and reports `what`. Throws Interrupted when the monitor asks to stop.
     void done(double work, const std::string& what) {
         const std::lock_guard<std::mutex> lock(mutex_);
         done_ += work;

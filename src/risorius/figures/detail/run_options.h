@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// How a figure is run: threads, progress, the wish to stop, and runs that several figures share.
+/// How a figure is run: threads, progress monitor with interruption, and results that several figures share.
 #pragma once
 
 #include <any>
@@ -15,13 +15,13 @@
 
 namespace risorius::figures {
 
-/// Results of runs that more than one figure shows (9a and 9b), by what was run. Several threads may ask: the first runs,
-/// the others wait and lend their thread meanwhile.
+/// Results of runs that more than one figure shows (9a and 9b). Thread-safe: the first thread that asks for a key runs it; others
+/// wait, and lend their threads meanwhile.
 class SharedRuns {
   public:
     explicit SharedRuns(SpareThreads* spare = nullptr) : spare_(spare) {}
 
-    /// The result of an equal run before, or else of `run`.
+    /// Returns the result stored under `key`, or calls `run` and stores its result.
     template <typename Result>
     std::shared_ptr<const Result> get(const std::string& key, const std::function<Result()>& run) {
         Kept& kept = kept_as(key);
@@ -50,9 +50,10 @@ class SharedRuns {
     std::map<std::string, Kept> runs_;
 };
 
+/// Options of run_figure().
 struct RunOptions {
     ThreadLimit threads = 0;       ///< results do not depend on it
-    ProgressMonitor monitor = {};  ///< called from any thread, one at a time
+    ProgressMonitor monitor = {};  ///< called from any thread, one call at a time
     SharedRuns* shared = nullptr;
 };
 

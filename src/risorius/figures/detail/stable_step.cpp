@@ -14,7 +14,7 @@
 namespace risorius::figures {
 namespace {
 
-/// The least excitation of a mode against what counts as divergence: linear theory lets a motion grow by so much.
+/// Ratio of the divergence limit to the smallest excitation of a mode: linear theory lets a motion grow by this factor.
 constexpr double kGrowthToDivergence = 1e6;
 
 struct Sweep {
@@ -64,7 +64,7 @@ Sweep read_sweep(const JsonCursor& experiment) {
 
 struct Found {
     StableStep stable;
-    double predicted_s = 0;  ///< 0: none of the table
+    double predicted_s = 0;  ///< 0: no step of the table is stable
 };
 
 void show(const Sweep& sweep, const std::vector<Found>& found, Outcome& outcome) {
@@ -143,7 +143,7 @@ void run_stable_step(const JsonCursor& experiment, const RunOptions& options, Ou
                              " = " + format_number(sweep.values[v]));
     });
 
-    // Linear theory of the same table.
+    // Searches the same table by linear theory.
     parallel_for(static_cast<int>(values), options.threads, [&](int i) {
         const std::size_t v = static_cast<std::size_t>(i);
         const softbody::SoftBody body = softbody::build_body(sweep.bodies[v]);

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "risorius/figures/detail/body_cases.h"
+#include "risorius/figures/detail/equilibrium_run.h"
 #include "risorius/figures/detail/progress.h"
-#include "risorius/figures/detail/settle.h"
 
 namespace risorius::figures {
 namespace {

@@ -7,7 +7,7 @@
 namespace risorius::figures {
 namespace {
 
-constexpr int kPieces = 50;  // between which a run can be stopped
+constexpr int kPieces = 50;  // a run can be interrupted between these parts
 
 bool survives(const softbody::SoftBody& body, const solve::IntegratorOptions& integrator,
               double duration_s, const RunOptions& options, long& evaluations) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The longest step of a table with which a method gets through a simulation: as in the thesis, steps are tried from the
-/// longest down and the first with which the motion does not diverge counts.
+/// Searches for the largest stable time step of a method. As in the thesis, the steps of a table are tried from the largest down,
+/// and the first one at which the motion does not diverge counts.
 #pragma once
 
 #include <string>
@@ -14,24 +14,25 @@
 
 namespace risorius::figures {
 
-/// {"longest_s": 1e-2, "shortest_s": 1e-5, "per_decade": 12}: steps, longest first.
+/// Reads {"longest_s": 1e-2, "shortest_s": 1e-5, "per_decade": 12}; returns the steps in descending order.
 std::vector<double> read_step_table(const JsonCursor& json);
 
-/// Names of explicit methods with a fixed step, at least one.
+/// Reads names of explicit methods with a fixed step, at least one.
 std::vector<solve::Method> read_fixed_step_methods(const JsonCursor& json);
 
-/// As the thesis' figure 12 calls it: "RK4", "A-B".
+/// The name of a method in figure 12 of the thesis, such as "RK4" or "A-B".
 std::string label_of(solve::Method method);
 
 struct StepSearch {
-    std::vector<double> steps_s;  ///< longest first
+    std::vector<double> steps_s;  ///< descending
     double duration_s = 0;
-    double diverged_at = 1e3;  ///< body lengths a node is away from its start
+    /// A motion has diverged when a node is this many body lengths away from its start
+    double diverged_at = 1e3;
 };
 
 struct StableStep {
-    double step_s = 0;     ///< 0: none of the table
-    long evaluations = 0;  ///< of the whole search
+    double step_s = 0;     ///< 0: no step of the table is stable
+    long evaluations = 0;  ///< force evaluations of the whole search
 };
 
 StableStep longest_stable_step(const softbody::SoftBody& body, solve::Method method,

@@ -9,8 +9,8 @@
 namespace risorius::figures {
 namespace {
 
-/// Where a curve through points first falls below a height from its greatest to the left (-1) or the right (+1); its last
-/// point if it never does.
+/// Position where a polyline first falls below a height, going left (-1) or right (+1) from its maximum; its last point if it
+/// never does.
 double crossing(const std::vector<double>& x, const std::vector<double>& y, std::size_t max,
                 int direction, double height) {
     std::size_t i = max;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A muscle at rest between plates that are put somewhere, and what its tension is over that.
+/// Isometric equilibria of a muscle between plates, and its tension over length.
 #pragma once
 
 #include <limits>
@@ -16,7 +16,7 @@ namespace risorius::figures {
 
 struct Still {
     double tension_f0 = std::numeric_limits<double>::quiet_NaN();
-    double stretch = 0;  ///< l / l0, mean of the chains
+    double stretch = 0;  ///< l / l0, mean over the chains
     double spread = 0;   ///< Musculotendon::segment_spread
     double bulge = 1;    ///< width of the middle over that at rest
     double volume_change_percent = 0;
@@ -27,10 +27,10 @@ class StillMuscle {
   public:
     StillMuscle(const softbody::MuscleDescription& description, double activation);
 
-    /// Brought to rest at a normalised length (muscle_runs.h), from where it was.
+    /// Solves for equilibrium at a normalised length (muscle_runs.h), starting from the current state.
     Still at(double length);
     double rest_volume_m3() const { return rest_volume_; }
-    /// As it lies now.
+    /// The current shape.
     Shape shape(const std::string& name, const std::string& caption) const;
 
   private:
@@ -43,16 +43,18 @@ class StillMuscle {
     double rest_volume_;
 };
 
-/// One per length, which rise. Goes from rest outwards, so that every equilibrium begins near the one before it.
+/// Equilibria at ascending lengths. The solver goes outwards from the rest length, so that every equilibrium starts near the
+/// previous one.
 std::vector<Still> still_over(const softbody::MuscleDescription& muscle, double activation,
                               const std::vector<double>& lengths, const RunOptions& options);
 
-/// Of a force over lengths.
+/// The peak of an isometric force-length curve.
 struct TensionPeak {
-    double force_f0 = 0,
-           length = 0;  ///< vertex of the parabola through the greatest and its neighbours
-    double range = 0;   ///< of lengths where force is above a share of that
+    /// Vertex of the parabola through the largest value and its neighbours
+    double force_f0 = 0, length = 0;
+    double range = 0;  ///< range of lengths where the force is above a fraction of the peak
 };
+/// `fraction`: of the peak, for TensionPeak::range.
 TensionPeak peak_of(const std::vector<double>& lengths, const std::vector<double>& force_f0,
                     double fraction);
 

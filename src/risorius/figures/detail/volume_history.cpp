@@ -13,7 +13,7 @@
 namespace risorius::figures {
 namespace {
 
-/// Of the charts' palette; curves beyond it repeat its colours and are dashed.
+/// Number of colours in the palette of charts; further curves repeat the colours and are dashed.
 constexpr std::size_t kColours = 8;
 
 struct History {
@@ -24,7 +24,7 @@ using Histories = std::vector<History>;
 
 struct Times {
     double sample_s;
-    int count;  ///< of samples after t = 0
+    int count;  ///< number of samples after t = 0
 };
 
 History record(const BodyRun& run, const Times& times, const RunOptions& options) {
@@ -90,7 +90,7 @@ Features features_of(const std::vector<double>& percent, double sample_s) {
     return features;
 }
 
-/// A table of one column per run, and a chart of it.
+/// Adds a table with one column per run, and a chart of it.
 void show(const std::vector<BodyRun>& runs, const Histories& histories, const Times& times,
           std::vector<double> History::*percent, const std::string& name,
           const std::string& quantity, bool charted, FigureResult& figure) {
@@ -132,7 +132,7 @@ void run_volume_history(const JsonCursor& experiment, const RunOptions& options,
     const bool shows_volume =
         experiment.at("shows").one_of({"volume", "volume-element-sum"}) == "volume";
 
-    // Other figures may show the same run.
+    // Other figures may need the same run.
     const std::function<Histories()> run = [&] { return record_all(runs, times, options); };
     std::string key = "volume-history";
     for (const char* part : {"body", "runs", "duration_s", "sample_s"})

@@ -12,9 +12,9 @@ namespace risorius::fitting {
 namespace {
 
 constexpr double kWeakest = 0.1, kStrongest = 6.0;
-constexpr double kTolerance = 0.01;  // of the stretch; a fibre's own scatter is larger
+constexpr double kTolerance = 0.01;  // of the stretch; the scatter of single fibres is larger
 constexpr int kTrials = 6;
-constexpr int kTrialIterations = 200;  // of the solver, per trial
+constexpr int kTrialIterations = 200;  // solver iterations per trial
 
 }  // namespace
 
@@ -39,7 +39,7 @@ std::vector<MuscleStrength> calibrate_strength(face::Face& face, const rig::RigD
             activation[channels.column(muscle.muscle, side)] = 1.0;
         face.start([&](double) { return rest; });
 
-        // Secant in the logarithm of the strength, in which the stretch is nearly straight
+        // Secant steps in the logarithm of the strength, over which the stretch is nearly linear.
         double before_log = 0, before_miss = 0;
         double log_strength = std::log(muscle.strength);
         for (int trial = 0; trial < kTrials; ++trial) {
@@ -60,7 +60,7 @@ std::vector<MuscleStrength> calibrate_strength(face::Face& face, const rig::RigD
                 step = -miss * (log_strength - before_log) / (miss - before_miss);
             before_log = log_strength;
             before_miss = miss;
-            // A stronger muscle shortens more, whatever the last two trials make it look like.
+            // The sign is enforced, because a stronger muscle always shortens more, whatever the last two trials suggest.
             step = std::clamp(miss > 0 ? std::abs(step) : -std::abs(step), -1.0, 1.0);
             const double next =
                 std::clamp(log_strength + step, std::log(kWeakest), std::log(kStrongest));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Finds, for one head, the strength of every muscle with which activation 1 shortens it as published.
+/// Finds the strength of every muscle of a head with which activation 1 shortens the muscle by the published ratio.
 ///
-///   s   strength: force / force from the cross-section, ratio, [0.1, 6]
-///   l   mean fibre length / rest length at activation 1
+///   s   strength: force over the force from the cross-section, [0.1, 6]
+///   l   mean fibre length over rest length at activation 1
 ///
-/// Targets for l are those of the muscle bands, "shortens_to".
+/// The targets of l are "shortens_to" of the muscle bands.
 #pragma once
 
 #include <string>
@@ -17,17 +17,18 @@
 
 namespace risorius::fitting {
 
+/// The strength found for a muscle.
 struct MuscleStrength {
     std::string muscle;
     double strength = 1;
-    double stretch = 1;  ///< l reached
+    double stretch = 1;  ///< l as reached
     double target_stretch = 1;
-    bool at_limit = false;  ///< the strength that the target needs is outside of the limits
-    bool converged = true;  ///< the face reached equilibrium in the last trial
+    bool at_limit = false;  ///< whether the target needs a strength outside the limits
+    bool converged = true;  ///< whether the last trial reached equilibrium
 };
 
-/// Calibrates each muscle of the rig's bands alone, bundle or solid, one after the other, by the secant method. `face` is left with the
-/// strengths found. Throws Interrupted.
+/// Calibrates each muscle of the rig's bands separately, bundle or solid, one after the other, by the secant method. `face` keeps
+/// the strengths found. Throws Interrupted.
 std::vector<MuscleStrength> calibrate_strength(face::Face& face, const rig::RigDescription& rig,
                                                const ProgressMonitor& monitor);
 

@@ -14,13 +14,13 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kFarthestFromSkin_mm = 15, kOffSkin_mm = 5;
-constexpr double kMinFissure_mm = 3;  // between the lids of an eye that can close
+constexpr double kMinFissure_mm = 3;  // minimum distance between the lids of an open eye
 constexpr double kSamePlace_mm = 0.2, kApart_mm = 5;
-constexpr double kRefusedRatio = 4.5,
-                 kRefused_mm = 12;      // required ones reach 2.5 on heads of two sigma
+// A required landmark is rejected when both are exceeded; on heads of two sigma, the ratio reaches 2.5.
+constexpr double kRefusedRatio = 4.5, kRefused_mm = 12;
 constexpr double kMovingFrom_m = 8e-3;  // z; nothing behind it moves
 
-// "(1.2, -3.45, 8.7)", to a thousandth of the largest: what landmarks are good for.
+// "(1.2, -3.45, 8.7)", rounded to a thousandth of the largest coordinate, the precision of landmarks.
 std::string point_text(const Vec3& p) {
     const double scale = std::max(1e-9, p.cwiseAbs().maxCoeff());
     const int decimals = std::max(0, 2 - static_cast<int>(std::floor(std::log10(scale))));
@@ -82,7 +82,7 @@ void check_sides(const LandmarkPositions& landmarks, const rig::Atlas& atlas,
     for (const auto& [id, p] : landmarks) widest = std::max(widest, (p - first).norm());
     if (!(widest > 0)) throw Error(place, "landmarks in different places", "all in one");
 
-    // All the other way round, or some pairs
+    // All pairs are exchanged, or some of them.
     LandmarkPositions exchanged;
     for (const auto& [id, p] : landmarks) exchanged[rig::mirrored_landmark(id)] = p;
     const auto misfit = [&](const LandmarkPositions& marks) {
@@ -101,7 +101,7 @@ void check_sides(const LandmarkPositions& landmarks, const rig::Atlas& atlas,
         throw Error(place, "_l on the subject's left and _r on the right",
                     "the other way round: " + quoted_list(pairs));
 
-    // Two in one place, or lids that touch
+    // Two landmarks coincide, or the lids touch.
     const double size = rig::find_head_frame(landmarks, atlas, 1.0).size;  // in mesh units
     for (auto a = landmarks.begin(); a != landmarks.end(); ++a)
         for (auto b = std::next(a); b != landmarks.end(); ++b) {
@@ -132,7 +132,7 @@ std::vector<std::string> check_places(const rig::Head& head, const LandmarkPosit
     std::vector<std::string> notes;
     const std::string place = file.string() + ":/landmarks/";
 
-    // On the skin
+    // Landmarks must lie on the skin.
     const geom::SurfaceTree skin(head.vertices, head.skin);
     LandmarkPositions in_head;
     for (const auto& [id, in_mesh] : landmarks) {
@@ -147,7 +147,7 @@ std::vector<std::string> check_places(const rig::Head& head, const LandmarkPosit
                             " off the skin");
     }
 
-    // Where the others put it
+    // Landmarks must lie where the others predict them.
     const auto& required = rig::required_landmarks();
     for (const rig::LandmarkPrediction& doubt :
          rig::doubtful_landmarks(in_head, atlas, head.size)) {
@@ -159,7 +159,7 @@ std::vector<std::string> check_places(const rig::Head& head, const LandmarkPosit
         };
         const std::string expected =
             "a point near " + in_mesh(doubt.expected) + ", where the other landmarks put it";
-        // Of a pair that is no mirror image the others do not always know which one is wrong
+        // When a pair is asymmetric, the others cannot always tell which of the two is wrong.
         const std::string partner = rig::mirrored_landmark(doubt.id);
         const bool by_partner = partner != doubt.id && doubt.mirror_ratio > 0;
         const std::string found = in_mesh(doubt.found) + ", " +

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Checks of a landmark file before a fit: all required landmarks are there, they lie on the skin, left ones on the left, and each where
-/// the others predict it.
+/// Checks of a landmark file before a fit: all required landmarks exist, landmarks lie on the skin, left ones lie on the left,
+/// and each lies where the others predict it.
 #pragma once
 
 #include <filesystem>
@@ -15,30 +15,31 @@
 
 namespace risorius::fitting {
 
-/// All in mesh units unless stated. Every function throws Error that names the landmark, the expected and the found.
+/// Positions by id, in mesh units unless stated otherwise. Every function here throws Error naming the landmark, what was
+/// expected and what was found.
 using LandmarkPositions = std::map<std::string, Vec3>;
 
-/// For messages: "ch_l" "ch_r", in quotes.
+/// A list of ids for messages: "ch_l" "ch_r", in quotes.
 std::string quoted_list(const std::vector<std::string>& ids);
 
-/// Positions of the rig's landmarks; the required ones must be among them.
+/// Positions of the rig's landmarks. Throws Error when a required one is missing.
 LandmarkPositions landmark_positions(const rig::RigDescription& rig, const geom::PolygonMesh& mesh,
                                      const std::filesystem::path& file);
 
-/// Metres per unit: m, dm, cm, mm, inch or foot, whichever gives a head of adult size.
+/// Metres per unit: m, dm, cm, mm, inch or foot, whichever makes the head adult-sized.
 double unit_from_landmarks(const LandmarkPositions& landmarks, const rig::Atlas& atlas);
 
-/// Refuses files with left and right exchanged, two landmarks or all of them in one place, or closed eyes, since later checks would report
-/// something else.
+/// Rejects files with left and right exchanged, with two or all landmarks in one place, or with closed eyes. These are checked
+/// first, because later checks would report something misleading.
 void check_sides(const LandmarkPositions& landmarks, const rig::Atlas& atlas,
                  const std::filesystem::path& file);
 
-/// Refuses landmarks far from the skin, and required ones that the others strongly contradict. Returns notes for those a little off the
-/// skin and those that the others contradict.
+/// Rejects landmarks far from the skin, and required ones that strongly contradict the others. Returns notes about landmarks that
+/// are slightly off the skin or contradict the others.
 std::vector<std::string> check_places(const rig::Head& head, const LandmarkPositions& landmarks,
                                       const rig::Atlas& atlas, const std::filesystem::path& file);
 
-/// Landmarks that were not given, sorted by how many points of muscles depend on them.
+/// Missing landmarks, sorted by the number of muscle points that depend on them.
 std::vector<std::string> worth_giving(const rig::Head& head, const rig::Atlas& atlas);
 
 }  // namespace risorius::fitting

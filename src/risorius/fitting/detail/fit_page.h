@@ -11,7 +11,7 @@ namespace risorius::fitting {
 
 inline constexpr const char* kFitPicture = "fit.png";
 
-/// Writes next to the picture, which exists already. Throws RunError when it cannot be written.
+/// Writes the page and results.json to a folder that already has the picture. Throws RunError when a file cannot be written.
 void write_fit_report(const FitReport& report, const rig::RigDescription& rig,
                       const std::filesystem::path& folder);
 

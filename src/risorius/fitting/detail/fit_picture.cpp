@@ -22,7 +22,7 @@ using render::Mark;
 using render::MarkedLine;
 
 constexpr int kPanel_px = 560, kPanelHeight_px = 760, kCaption_px = 84;
-constexpr double kSeen_m = 0.30;                // of the height of an average head
+constexpr double kSeen_m = 0.30;                // visible height on an average head
 constexpr double kThin_mm = 2, kThick_mm = 24;  // ends of the colour scale
 const Vec3 kGiven(0.93, 0.46, 0.05), kGuessed(0.10, 0.38, 0.88), kSeam(0.75, 0.05, 0.15),
     kLid(0.35, 0.05, 0.55), kSkin(0.86, 0.80, 0.76), kSkull(0.93, 0.88, 0.74),
@@ -32,7 +32,7 @@ std::vector<Vec3> all_of(const Vec3& colour, long count) {
     return std::vector<Vec3>(static_cast<std::size_t>(count), colour);
 }
 
-// Skin and eyes; teeth and the like would only hide behind them.
+// Surfaces of skin and eyes; teeth and other parts would be hidden.
 std::vector<ColouredSurface> head_surfaces(const rig::Head& head, const geom::PolygonMesh& mesh) {
     std::vector<ColouredSurface> out;
     out.push_back({head.vertices, head.skin, all_of(kSkin, head.vertices.rows())});
@@ -55,7 +55,7 @@ std::vector<ColouredSurface> head_surfaces(const rig::Head& head, const geom::Po
 
 Image panel(const std::vector<ColouredSurface>& surfaces, const std::vector<Mark>& marks,
             const std::vector<MarkedLine>& lines, const rig::Head& head, double azimuth_deg) {
-    // Crown to throat, as far as that shows on a head without them
+    // From crown to throat, estimated from the face where a head has neither.
     const double top = head.landmark("v").y(), bottom = head.landmark("me").y();
     return render::draw_measured(
         surfaces, marks, lines,
@@ -129,7 +129,7 @@ Image fit_picture(const rig::Head& head, const BoneEstimate& bone, const rig::Ri
                   const geom::PolygonMesh& mesh) {
     const std::vector<ColouredSurface> whole = head_surfaces(head, mesh);
 
-    // What was given, what was guessed, and what came of it
+    // Given landmarks, estimated landmarks, and the structures made from them
     std::vector<Mark> marks;
     int guessed = 0;
     for (const auto& [id, at] : head.landmarks) {
@@ -144,17 +144,18 @@ Image fit_picture(const rig::Head& head, const BoneEstimate& bone, const rig::Ri
         lines.push_back({lids.lower_margin(), kLid, 2});
     }
 
-    // Thickness on the skin that moves, the rest of the head pale behind it
+    // Thickness as colour on the moving skin, with the rest of the head pale behind it
     ColouredSurface thickness{bone.skin, bone.triangles, {}};
     for (const double t : bone.thickness_m)
         thickness.colours.push_back(
             render::scale_colour((1e3 * t / head.size - kThin_mm) / (kThick_mm - kThin_mm)));
     Points behind = head.vertices;
-    behind.col(2).array() -= head.mm(3);  // where both are one surface the coloured one shows
+    // Moved back, so that the coloured surface shows where the two coincide
+    behind.col(2).array() -= head.mm(3);
     const std::vector<ColouredSurface> map{
         {behind, head.skin, all_of(Vec3(0.93, 0.93, 0.93), behind.rows())}, thickness};
 
-    // Bone, and skin over it
+    // Bone with skin over it
     ColouredSurface bones{bone.bone, bone.triangles, {}};
     for (const double fraction : bone.jaw_fraction)
         bones.colours.push_back((1 - fraction) * kSkull + fraction * kMandible);

@@ -17,12 +17,12 @@ namespace risorius::fitting {
 
 namespace {
 
-constexpr double kMax = 1.0;  // of z
+constexpr double kMax = 1.0;  // largest |z|
 constexpr double kLongestStep = 0.5;
-constexpr double kDifference = 0.02;  // of z, for slopes
-constexpr int kIterations = 200;      // of the solver, per expression
-constexpr double kMinRatio = 0.1;     // what is as near as that counts by its square
-constexpr double kIdle = 0.02;        // a muscle that is less active hardly shows in an expression
+constexpr double kDifference = 0.02;  // step of z for finite differences
+constexpr int kIterations = 200;      // solver iterations per expression
+constexpr double kMinRatio = 0.1;     // smaller relative differences count by their square
+constexpr double kIdle = 0.02;  // less active muscles hardly show in an expression and are ignored
 
 constexpr auto kPressure = static_cast<std::size_t>(track::Kinematic::kMouthPressure);
 
@@ -118,12 +118,12 @@ class Fit {
         z_[i] = value;
     }
 
-    // Cost and mean difference at z; `model`: the quadratic about it.
+    // Objective and mean difference at z. `model`: receives the quadratic model about z.
     std::pair<double, double> look(int round, solve::BoxQuadratic* model) {
         double cost = 0.5 * keep_.dot(z_.cwiseAbs2()), sum = 0;
         if (model != nullptr) {
             model->A = keep_.asDiagonal();
-            model->b = model->price = Eigen::VectorXd::Zero(z_.size());
+            model->b = model->l1_weight = Eigen::VectorXd::Zero(z_.size());
         }
         for (std::size_t e = 0; e < expressions_.size(); ++e) {
             const Expression& one = expressions_[e];
@@ -153,7 +153,7 @@ class Fit {
         return {cost, sum};
     }
 
-    // The table's drive with as much pressure as puffs this head.
+    // The drive of the table with the pressure that puffs this head.
     track::Drive scaled(track::Drive drive) const {
         drive.kinematic[kPressure] *= std::exp(z_[z_.size() - 1]);
         return drive;
@@ -162,7 +162,7 @@ class Fit {
     bool works(long i, const track::Drive& drive) const {
         const auto muscles = static_cast<long>(muscles_.size());
         if (i == z_.size() - 1) return drive.kinematic[kPressure] != 0;
-        if (i >= muscles) {  // turn and push are those of a lip's own muscles
+        if (i >= muscles) {  // turn and push act through the lip's own muscles
             const std::string lip = (i - muscles) % 2 == 0 ? "upper" : "lower";
             for (const char* part : {"_marginal", "_peripheral"})
                 if (drive.excitation[channels_.column("orbicularis_oris_" + lip + part,
@@ -177,7 +177,7 @@ class Fit {
         return false;
     }
 
-    // d(ways)/dz in the equilibrium just found, in the order of a Points' numbers.
+    // d(displacements)/dz in the current equilibrium, in the memory order of Points.
     Eigen::MatrixXd slopes(const track::Drive& drive) {
         const Points nodes = face_.statics().nodes();
         std::vector<Points> force;
@@ -218,7 +218,7 @@ class Fit {
     const ProgressMonitor& monitor_;
     std::vector<std::string> muscles_;
     rig::LipsDescription lips_;
-    std::vector<std::pair<double*, double>> lip_ratios_;  // and what it was
+    std::vector<std::pair<double*, double>> lip_ratios_;  // and their previous values
     std::vector<Expression> expressions_;
     Eigen::VectorXd z_, keep_;
 };

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Scales the muscles of a head so that the standard expressions move its landmarks as they move those of the head that the
-/// standard tables were calibrated on.
+/// Scales the muscles of a head so that the standard expressions move its landmarks as they move those of the head on which the
+/// standard tables were calibrated.
 ///
 ///   minimise  sum over expressions (|u - g| / |g| + length | |u| / |g| - 1 |) + sum keep/2 z^2
 ///
 ///   u, g   displacements of the landmarks on this head and on the standard head, at atlas size, m
-///   z      logarithms of factors on the strength of each muscle, on turn and push of each lip, and on the pressure that puffs, |z| <= 1
+///   z      logarithms of factors: of the strength of each muscle, of turn and push of each lip, and of the pressure that puffs, |z| <= 1
 ///   keep   weight of a change; the push of the lower lip has its own
 ///
-/// Gauss-Newton over faces in equilibrium, du/dz = -H^-1 dg/dz at the nodes of the skin. Squares are reweighted so that the sum is one of
-/// lengths: an expression that this head cannot make does not distort the others.
+/// Gauss-Newton over faces in equilibrium, du/dz = -H^-1 dg/dz at the skin nodes. Squares are reweighted so that the sum consists
+/// of lengths. Therefore an expression that this head cannot make does not distort the others.
 #pragma once
 
 #include <map>
@@ -24,8 +24,9 @@
 
 namespace risorius::fitting {
 
+/// The result of fit_strengths().
 struct StrengthFit {
-    std::map<std::string, double> factor;  ///< muscle -> factor on its previous strength
+    std::map<std::string, double> factor;  ///< muscle -> factor of its previous strength
     rig::LipsDescription lips;
     double difference_before = 0;  ///< mean |u - g| / |g|
     double difference = 0;
@@ -34,11 +35,13 @@ struct StrengthFit {
 struct StrengthFitOptions {
     int rounds = 2;
     double keep = 0.03;
-    double keep_lower_push = 8;  ///< freer, the lower ring alone may widen the mouth
-    double length = 0.5;         ///< weight of an error in length relative to one in direction
+    /// Larger, because the lower ring alone could otherwise widen the mouth
+    double keep_lower_push = 8;
+    double length = 0.5;  ///< weight of an error of length relative to one of direction
 };
 
-/// `face` is left at rest with the result. Throws Interrupted; Error when the table names something that the rig does not know.
+/// Fits the strengths. `face` is left at rest with the result. Throws Interrupted, and Error when the table names something that
+/// the rig does not know.
 StrengthFit fit_strengths(face::Face& face, const rig::RigDescription& rig,
                           const scene::DisplacementTable& standard,
                           const StrengthFitOptions& options, const std::string& place,

@@ -11,10 +11,11 @@
 namespace risorius::fitting {
 namespace {
 
-constexpr double kSmallestEye_mm = 8, kLargestEye_mm = 18;  // radius
-constexpr double kEyeOff_mm = 14;  // of its centre from where the lids want it
-constexpr double kEyeUnround =
-    0.15;  // RMS distance from a sphere over its radius; a cornea stands out
+constexpr double kSmallestEye_mm = 8, kLargestEye_mm = 18;  // radius of an eyeball
+// Largest distance of its centre from the position expected from the lids
+constexpr double kEyeOff_mm = 14;
+// RMS distance from a sphere over its radius; not smaller because of the cornea
+constexpr double kEyeUnround = 0.15;
 constexpr double kBehindLids_mm = 12;
 
 bool is_eye(const std::vector<Vec3>& points, const Vec3& expected, double mm) {
@@ -29,7 +30,7 @@ bool is_eye(const std::vector<Vec3>& points, const Vec3& expected, double mm) {
            std::sqrt(squared / static_cast<double>(points.size())) < kEyeUnround * radius;
 }
 
-/// Behind the lips and between the corners, or a little beyond.
+/// Whether the points lie behind the lips and between the corners, or slightly beyond.
 bool is_in_mouth(const std::vector<Vec3>& points, const std::map<std::string, Vec3>& landmarks,
                  double mm) {
     const double width = landmarks.at("ch_l").x() - landmarks.at("ch_r").x();
@@ -64,7 +65,7 @@ std::vector<std::string> group_pieces(geom::PolygonMesh& mesh,
         std::max_element(pieces.triangle_count.begin(), pieces.triangle_count.end()) -
         pieces.triangle_count.begin());
 
-    // What each piece is
+    // Classify each piece.
     const double mm = 1e-3 * size;
     std::vector<std::vector<Vec3>> points(static_cast<std::size_t>(pieces.count()));
     for (long w = 0; w < welded.positions.rows(); ++w)

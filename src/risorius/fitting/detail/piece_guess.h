@@ -12,9 +12,9 @@
 
 namespace risorius::fitting {
 
-/// Puts the faces of pieces that are not skin into groups "eye_l", "eye_r", "teeth", "tongue", "other". `to_head` maps mesh units to the
-/// head frame, m; `landmarks` are in the head frame; `size`: this head / the average adult. Returns messages about what was named; empty
-/// when the mesh has several groups or is in one piece.
+/// Moves the faces of pieces that are not skin into groups "eye_l", "eye_r", "teeth", "tongue", "other". `to_head` maps mesh
+/// units to the head frame, m. `landmarks` are in the head frame. `size`: this head over the average adult. Returns messages
+/// about the named pieces; empty when the mesh has several groups or only one piece.
 std::vector<std::string> group_pieces(geom::PolygonMesh& mesh,
                                       const std::function<Vec3(const Vec3&)>& to_head,
                                       const std::map<std::string, Vec3>& landmarks, double size);

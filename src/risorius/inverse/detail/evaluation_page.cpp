@@ -17,7 +17,7 @@ namespace risorius::inverse {
 
 namespace {
 
-// Rows of a table that change places when another order is chosen; bars of activations side by side.
+// Rows of a table that are reordered when another order is selected; bars of activations side by side.
 const std::string kEvaluationStyle = R"(
 .orders input { position: absolute; opacity: 0; }
 .orders label { display: inline-block; padding: .1rem .6rem; margin: .15rem .3rem .15rem 0; border: 1px solid var(--line); border-radius: 1rem; cursor: pointer; font-size: .87rem; }
@@ -40,7 +40,7 @@ std::string fixed(double value, int decimals) {
     return text;
 }
 
-/// A number that an expression is judged by.
+/// A measure by which expressions are judged.
 struct Column {
     const char* name;
     const char* tsv;
@@ -111,7 +111,7 @@ void write_means(report::HtmlWriter& html, const Evaluation& evaluation) {
     html.close();
 }
 
-/// Ranks of the expressions, the best first; what has no number last.
+/// Ranks of the expressions, best first; those without a value come last.
 std::vector<std::size_t> ranks(const Evaluation& evaluation,
                                const std::function<double(const EvaluatedExpression&)>& worse) {
     std::vector<std::size_t> order(evaluation.expressions.size()), rank(order.size());

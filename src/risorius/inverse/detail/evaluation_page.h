@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The HTML page of an evaluation: means, a sortable table, and every expression in pictures, numbers and activations. It has no scripts
-/// and loads nothing from the network.
+/// The HTML page of an evaluation: means, a sortable table, and pictures, numbers and activations of every expression. It has no
+/// scripts and loads nothing from the network.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@
 
 namespace risorius::inverse {
 
-/// `pictures` null: only numbers.
+/// The complete page. `pictures` may be null; then it has only numbers.
 std::string evaluation_page(const Evaluation& evaluation, const EvaluationPictures* pictures);
 
-/// One row per expression for other programs: tab-separated, lengths in mm.
+/// A table for other programs with one row per expression: tab-separated, lengths in mm.
 std::string evaluation_table(const Evaluation& evaluation);
 
 }  // namespace risorius::inverse

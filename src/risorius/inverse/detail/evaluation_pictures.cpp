@@ -18,10 +18,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kShown = 0.42;  ///< size of a picture on a sheet, against the single one
+constexpr double kShown = 0.42;  ///< size of a picture on a sheet, ratio to the single picture
 constexpr const char* kFolder = "pictures";
 
-// How the eye has turned, told by its vertices.
+// The rotation of an eye, from its vertices.
 Mat3 eye_rotation(const rig::Head& head, int side, const Points& vertices) {
     const rig::Carrier eye = side == 0 ? rig::Carrier::kEyeLeft : rig::Carrier::kEyeRight;
     const Vec3 centre = head.eyes[static_cast<std::size_t>(side)].centre;
@@ -48,7 +48,7 @@ render::SkinValues error_scale() {
     return {.name = "error", .unit = "mm", .from = 0, .to = kErrorScale_mm, .at = {}};
 }
 
-// On the measured face, where the eye looks for what should be there.
+// The error is drawn on the measured face, where a viewer expects the correct shape.
 render::Pose error_pose(const render::Pose& measured, const Points& simulated,
                         const Eigen::VectorXd& area) {
     render::Pose pose = measured;

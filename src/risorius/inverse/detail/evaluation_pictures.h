@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The pictures of an evaluation: every expression as simulated and as measured, the difference as colour on the face, and contact sheets.
+/// Pictures of an evaluation: every expression as simulated and as measured, the difference as colour on the face, and contact
+/// sheets.
 #pragma once
 
 #include <filesystem>
@@ -15,23 +16,26 @@
 
 namespace risorius::inverse {
 
-/// Cameras of the pictures, in this order.
+/// Cameras of the pictures, in order.
 const std::vector<std::string>& evaluation_cameras();
 
-/// Upper end of the colour scale of errors, mm; the same for every head and run.
+/// Upper end of the colour scale of errors, mm; the same for all heads and runs.
 inline constexpr double kErrorScale_mm = 6;
 
+/// Picture files of an evaluation.
 struct EvaluationPictures {
     static constexpr int kWidth_px = 396, kHeight_px = 440;  ///< of a single picture
-    /// What it shows -> its file: "neutral", "table", "fitted", "measured", "table_error", "fitted_error".
+    /// Content -> file. The contents are "neutral", "table", "fitted", "measured", "table_error", "fitted_error".
     using Kinds = std::map<std::string, std::string>;
-    std::vector<std::map<std::string, Kinds>> expressions;  ///< per expression, by camera
-    std::map<std::string, std::string> sheets;              ///< by camera
+    /// One map per expression: camera -> files
+    std::vector<std::map<std::string, Kinds>> expressions;
+    std::map<std::string, std::string> sheets;  ///< camera -> file
 
     std::vector<std::string> files() const;
 };
 
-/// Writes below `folder`; file names are relative to it. `area`: of each vertex, m2, 0 where nothing is compared.
+/// Draws the pictures and writes them below `folder`; file names are relative to it. `area`: of each vertex, m2, 0 where nothing
+/// is compared. Throws Interrupted.
 EvaluationPictures draw_evaluation(const Evaluation& evaluation, const rig::RigDescription& rig,
                                    const geom::PolygonMesh& mesh, const rig::Head& head,
                                    const Eigen::VectorXd& area, const std::filesystem::path& folder,

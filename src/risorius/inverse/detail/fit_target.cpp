@@ -21,12 +21,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kOtherParts = 0.2;  // weight of a vertex of eyes, teeth and tongue to the skin's
-constexpr double kMoves_m = 1e-5;    // a part whose vertices all move less is not counted
-constexpr double kOnTheSkull_m =
-    1e-3;  // landmarks that no muscle moves further tell how the head is turned
+// Weight of a vertex of eyes, teeth and tongue, relative to the mean of the skin
+constexpr double kOtherParts = 0.2;
+constexpr double kMoves_m = 1e-5;  // a part is ignored when all of its vertices move less
+// Landmarks that no muscle moves farther determine the motion of the head
+constexpr double kOnTheSkull_m = 1e-3;
 
-// Skin by its area, and whatever else any of the shapes moves.
+// The area of skin vertices, and a weight for the vertices of other parts that any of the shapes moves.
 Eigen::VectorXd weights_of(const face::Face& face, const std::vector<Points>& fields) {
     const rig::Head& head = face.head();
     Eigen::VectorXd weight = scene::vertex_areas(face.surfaces().simulated_skin(), head.vertices);
@@ -45,7 +46,7 @@ Eigen::VectorXd weights_of(const face::Face& face, const std::vector<Points>& fi
     return weight;
 }
 
-// The turn and shift that bring `from` nearest to `to`, rows by pairs (Kabsch 1976).
+// The rigid motion that minimises the distances between rows of `from` and `to` (Kabsch 1976).
 Rigid nearest_motion(const Points& from, const Points& to) {
     return Rigid(Eigen::umeyama(from.transpose(), to.transpose(), false));
 }

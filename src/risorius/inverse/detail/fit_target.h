@@ -15,24 +15,25 @@
 
 namespace risorius::inverse {
 
-/// Targets over the same points for all shapes or frames.
+/// Targets over the same vertices for all shapes or frames.
 struct FitTarget {
     std::vector<std::string> names;
-    std::vector<double> times_s;  ///< of each frame, s; empty for shapes
+    std::vector<double> times_s;  ///< time of each frame, s; empty for shapes
     std::vector<Points> fields;   ///< V x 3 each, m, head frame
-    Eigen::VectorXd weight;       ///< V
+    Eigen::VectorXd weight;       ///< V, weight of each vertex in the error
 };
 
-/// Reads a table of "Measured shapes" (.json), or shapes.glb of `risorius shapes`; `only`: names, empty: all. Throws Error.
+/// Reads a table of measured shapes (.json), or shapes.glb of `risorius shapes`. `only`: names; empty: all. Throws Error.
 FitTarget given_shapes(const std::filesystem::path& file, const std::vector<std::string>& only,
                        const scene::RigFiles& files, const face::Face& face);
 
-/// Reads the rig's mesh with displaced vertices. Throws Error.
+/// Reads copies of the rig's mesh with displaced vertices. Throws Error.
 FitTarget given_meshes(const std::vector<std::filesystem::path>& meshes,
                        const scene::RigFiles& files, const face::Face& face);
 
-/// Reads a table of time_s and ID.x_mm, ID.y_mm, ID.z_mm, at most `fps` rows per second. The motion of the head is removed with the
-/// landmarks that muscles hardly move; `max_m`, m, is how far muscles move each of `points`. Throws Error.
+/// Reads a table with the columns time_s and ID.x_mm, ID.y_mm, ID.z_mm, using at most `fps` rows per second. The motion of the
+/// head is estimated from landmarks that muscles hardly move, and removed. `max_m`: largest displacement of each of `points` by
+/// muscles, m. Throws Error.
 FitTarget given_landmarks(const std::filesystem::path& file, int fps,
                           const scene::LandmarkPoints& points, const std::vector<double>& max_m,
                           long vertices);

@@ -13,7 +13,8 @@ namespace {
 // Ends of the ramp in CIE L*C*h (D65)
 constexpr double kRestLightness = 24, kActiveLightness = 88;
 constexpr double kRestHue_deg = 32, kActiveHue_deg = 90;
-constexpr double kRestChroma = 34, kMoreChroma = 42;  ///< of the middle, where orange is strongest
+constexpr double kRestChroma = 34,
+                 kMoreChroma = 42;  ///< more: added in the middle, for a strong orange
 
 }  // namespace
 

@@ -2,7 +2,7 @@
 /// \file
 /// The colour of a muscle by its activation: from dark red-brown at rest through orange to yellow.
 ///
-/// CIE lightness is linear in activation, so a more active muscle is brighter in grey and for colour-blind viewers too.
+/// CIE lightness is linear in activation, so a more active muscle is also brighter in greyscale and for colour-blind viewers.
 #pragma once
 
 #include "risorius/core/types.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Draws on a finished picture.
+/// Alpha blending of one pixel onto a finished picture.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace risorius::render {
 
-/// Straight alpha, over. `srgb` 0..1.
+/// Blends a colour over a pixel of RGBA bytes with straight (not premultiplied) alpha. `srgb` and `cover` are 0..1.
 inline void blend(std::uint8_t* pixel, const Vec3& srgb, double cover) {
     const double under = pixel[3] / 255.0 * (1 - cover), alpha = cover + under;
     if (alpha <= 0) return;
@@ -20,7 +20,7 @@ inline void blend(std::uint8_t* pixel, const Vec3& srgb, double cover) {
     pixel[3] = static_cast<std::uint8_t>(std::lround(255 * alpha));
 }
 
-/// IEC 61966-2-1
+/// The sRGB transfer function of IEC 61966-2-1.
 inline Vec3 srgb_of_linear(const Vec3& linear) {
     return linear.unaryExpr(
         [](double l) { return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055; });

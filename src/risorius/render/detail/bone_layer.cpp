@@ -13,7 +13,7 @@ namespace {
 // Linear albedo
 const Vec3 kBone(0.66, 0.58, 0.45), kEnamel(0.80, 0.76, 0.66);
 
-constexpr GLuint kOpenness = 8;  ///< vertex attribute; those of the scene's own are VertexAttribute
+constexpr GLuint kOpenness = 8;  ///< vertex attribute; the others are those of VertexAttribute
 
 void set_colour(const GlProgram& program, const char* name, const Vec3& colour) {
     const Eigen::Vector3f f = colour.cast<float>();
@@ -89,7 +89,7 @@ void BoneLayer::draw(const SceneBuffers& buffers) const {
     for (const Batch& batch : buffers.batches())
         if (batch.material == Material::kTeeth) buffers.draw(batch);
 
-    // Of the skin only what is nearest, so that ears and folds are not seen twice
+    // Only the nearest layer of skin is drawn, so that ears and folds do not show twice.
     skin_.use();
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     for (const Batch& batch : buffers.batches())

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Skull and mandible under transparent skin: bone and teeth, and over them the nearest skin, clear where it faces the camera and pale at its
-/// edges.
+/// Skull, mandible and teeth under transparent skin. The nearest layer of skin is drawn over the bones: clear where it faces the
+/// camera and pale at its edges.
 #pragma once
 
 #include "risorius/render/detail/gl_context.h"
@@ -19,10 +19,11 @@ class BoneLayer {
     BoneLayer(const BoneLayer&) = delete;
     BoneLayer& operator=(const BoneLayer&) = delete;
 
-    /// Throws Error when the pose has other bones than the scene.
+    /// Throws Error when the pose and the scene have different bones.
     void upload(const Pose& pose);
 
-    /// Draws bone, teeth of the buffers and their skin into the bound framebuffer, with the frame's uniforms.
+    /// Draws the bones, the teeth of `buffers` and the skin of `buffers` into the bound framebuffer, with the uniforms of the
+    /// frame.
     void draw(const SceneBuffers& buffers) const;
 
   private:

@@ -16,14 +16,15 @@ namespace {
 struct NamedCamera {
     const char* name;
     double azimuth_deg, elevation_deg = 0;
-    /// A close-up: what lies in its middle, and its height on a head that is kHeadHeight_mm high; else the whole head.
+    /// Close-ups: the landmarks around the middle of the frame, and the height of the frame on a head of kHeadHeight_mm. Empty:
+    /// the whole head.
     std::array<const char*, 2> middle{};
     double height_mm = 0;
 };
 
 constexpr double kHeadHeight_mm = 227.5;  // from chin to crown, of the standard head
 
-// Positive azimuth looks at the subject's left side, positive elevation down on it.
+// Positive azimuth looks at the subject's left side; positive elevation looks down.
 constexpr NamedCamera kCameras[] = {{"front", 0},
                                     {"three_quarter", 38},
                                     {"three_quarter_right", -38},
@@ -35,12 +36,12 @@ constexpr NamedCamera kCameras[] = {{"front", 0},
                                     {"mouth", 16, 0, {"sto", "sto"}, 74},
                                     {"ear", 82, 0, {"sa_l", "sba_l"}, 96}};
 
-// Shares of the height from chin to crown.
+// Fractions of the height from chin to crown.
 constexpr double kMarginAbove = 0.10;
 constexpr double kMarginBelow = 0.22;
 constexpr double kMarginBeside = 0.10;
 
-// Distance over frame height: 24 mm of film height times 4 is a 96 mm lens.
+// Distance over frame height. On a sensor 24 mm high, 4 corresponds to a lens of 96 mm.
 constexpr double kDistancePerHeight = 4.0;
 constexpr double kNearestDistance_m = 1.0;
 
@@ -88,7 +89,7 @@ Camera make_camera(const std::string& name, const std::map<std::string, Vec3>& l
     camera.azimuth_rad = kDegree * named.azimuth_deg;
     const double elevation_rad = kDegree * named.elevation_deg;
 
-    // What must be seen: height from the landmarks, width and depth from the skin above the chin.
+    // What must be visible: the height comes from the landmarks, the width and depth from the skin above the chin.
     const auto crown = landmarks.find("v");
     const auto chin = landmarks.find("me");
     const bool marked =
@@ -99,13 +100,13 @@ Camera make_camera(const std::string& name, const std::map<std::string, Vec3>& l
     const double frame_bottom = bottom - kMarginBelow * height;
     const double frame_top = top + kMarginAbove * height;
 
-    // The head is centred across: its own middle plane in front views, the middle of its depth in profile.
+    // The head is centred sideways on its midplane in front views, and on the middle of its depth in profile.
     const Vec3 right(std::cos(camera.azimuth_rad), 0.0, -std::sin(camera.azimuth_rad));
     Vec3 target((skin_min.x() + skin_max.x()) / 2, (frame_bottom + frame_top) / 2,
                 (skin_min.z() + skin_max.z()) / 2);
     Vec3 half_box = (skin_max - skin_min) / 2;
     if (marked) {
-        // A head is about two thirds as wide, and nine tenths as deep, as it is high; shoulders do not count.
+        // The width of a head is about two thirds of its height, the depth nine tenths. Shoulders do not count.
         const auto nose = landmarks.find("prn");
         const double front = nose != landmarks.end() ? nose->second.z() : skin_max.z();
         half_box = Vec3(0.40 * height, half_box.y(), 0.46 * height);
@@ -118,8 +119,8 @@ Camera make_camera(const std::string& name, const std::map<std::string, Vec3>& l
         std::max(frame_top - frame_bottom, 2 * half_width * (1 + kMarginBeside) / aspect);
 
     camera.portrait_height_m = camera.frame_height_m;
-    if (named.elevation_deg > 80)  // a head is as deep as its front is high, nearly
-        target.y() = (top + bottom) / 2;
+    // Seen from above, the depth of a head is about its height in a front view
+    if (named.elevation_deg > 80) target.y() = (top + bottom) / 2;
     if (named.height_mm > 0 && marked && landmarks.contains(named.middle[0]) &&
         landmarks.contains(named.middle[1])) {
         target = (landmarks.at(named.middle[0]) + landmarks.at(named.middle[1])) / 2;
@@ -188,7 +189,7 @@ std::vector<Mat4> lens_views(const Camera& camera, const std::map<std::string, V
         const double radius = 0.5e-3 * lens.aperture_mm * std::sqrt((i + 0.5) / kViews);
         const double turn = i * std::numbers::pi * (3 - std::sqrt(5.0));
         const Vec3 aside = radius * (std::cos(turn) * right + std::sin(turn) * up);
-        // A shear of the world along the view that leaves the plane in focus alone
+        // A shear of the world along the view direction, which leaves the plane of focus unchanged.
         Mat4 shear = Mat4::Identity();
         shear.block<3, 3>(0, 0) += aside * camera.backward.transpose() / distance;
         shear.block<3, 1>(0, 3) = -aside * camera.backward.dot(focus) / distance;

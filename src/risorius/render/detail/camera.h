@@ -19,24 +19,25 @@ struct Camera {
     Vec3 position;           ///< m, world
     double azimuth_rad = 0;  ///< from straight ahead of the face towards its left
     Mat4 clip_from_world;
-    double frame_height_m;     ///< height of what is seen at the head
-    double portrait_height_m;  ///< the same of a picture of the whole head
+    double frame_height_m;     ///< height of the visible area at the head
+    double portrait_height_m;  ///< the same for a picture of the whole head
     Vec3 backward;             ///< unit, from the head to the camera
     Vec3 up = Vec3::UnitY();   ///< unit, of the picture
     bool orthographic = false;
 
-    /// The point where lines of sight meet; for an orthographic camera so far away that they are parallel.
+    /// Centre of projection. That of an orthographic camera is so far away that all lines of sight are parallel.
     Vec3 eye_point() const { return orthographic ? Vec3(position + 1e3 * backward) : position; }
 };
 
-/// Frames crown (v) to chin (me) with margins, or a close-up its own landmarks, and the box of the skin where they are missing.
-/// Throws Error naming the cameras for an unknown one, and what of the lens is out of range.
+/// Frames the head from crown (v) to chin (me) with margins; a close-up frames its own landmarks. Where landmarks are missing,
+/// the box of the skin is framed.
+/// Throws Error for an unknown camera, naming the cameras, and for a field of `lens` out of range.
 Camera make_camera(const std::string& name, const std::map<std::string, Vec3>& landmarks,
                    const Vec3& skin_min, const Vec3& skin_max, double aspect,
                    const Lens& lens = {});
 
-/// The camera moved to points of its lens' aperture, distributed evenly, so that the plane of the eyes stays in focus; the camera itself
-/// when it has no aperture.
+/// Views from points that are spread evenly over the aperture of the lens; the plane of the eyes stays in focus. Without an
+/// aperture: the view of the camera itself.
 std::vector<Mat4> lens_views(const Camera& camera, const std::map<std::string, Vec3>& landmarks,
                              const Lens& lens);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Clears only those cells of a picture that are drawn in samples: clearing memory takes as long as drawing.
+/// Clears only those cells of a picture that are drawn in samples, because clearing memory takes as long as drawing.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,8 @@ class CellClear {
     CellClear(const CellClear&) = delete;
     CellClear& operator=(const CellClear&) = delete;
 
-    /// Colour and alpha to 0 and depth to the farthest, of a viewport of so many pixels. Binds a vertex array of its own.
+    /// Sets colour and alpha to 0 and depth to the farthest value in a viewport of the given size. Binds a vertex array of its
+    /// own.
     void clear(const PictureCells& cells, int width_px, int height_px);
 
   private:

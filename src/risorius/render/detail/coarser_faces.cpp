@@ -8,8 +8,8 @@
 namespace risorius::render {
 namespace {
 
-constexpr double kAroundEye = 1.6;     // of its radius: the lids
-constexpr double kAroundMouth = 1.35;  // of half its width
+constexpr double kAroundEye = 1.6;     // times the radius of the eye: contains the lids
+constexpr double kAroundMouth = 1.35;  // times half the width of the mouth
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Simplified surfaces for pictures whose samples are wider than the error.
+/// Simplified surfaces for small pictures, whose samples are wider than the error of the simplification.
 #pragma once
 
 #include <functional>
@@ -11,23 +11,23 @@
 
 namespace risorius::render {
 
-/// Largest distance of drawn skin and eyes from the scene's, m; 0: no simplification.
+/// Largest distance between the simplified and the original surface, m; 0: no simplification.
 struct Coarseness {
     double seen_m = 0, shadow_m = 0, eyes_m = 0;
-    double moved_m = 0;  ///< where skin is much_moved()
-    bool keeps_folds =
-        true;  ///< skin that may wrinkle is not simplified, since its wrinkles are drawn
+    double moved_m = 0;  ///< for skin where much_moved() is true
+    /// True: skin that may wrinkle is not simplified, because its wrinkles are drawn.
+    bool keeps_folds = true;
 };
 
-/// Faces of some of the same vertices, about `error_m` from the given ones at most at rest (by quadrics, Garland & Heckbert 1997),
-/// with the same rim. Those that `stays` remain as they are.
+/// Simplifies `faces` on the same vertices and keeps the rim. The distance to the given surface in the rest pose is about
+/// `error_m` at most (quadric error metric, Garland & Heckbert 1997). Faces for which `stays` is true are kept.
 std::vector<Face> coarser_faces(const Points& rest, const std::vector<Face>& faces, double error_m,
                                 const std::function<bool(const Face&)>& stays);
 
-/// Whether poses bend, open or roll up the skin of a face: around eyes and mouth. Everywhere, when the scene does not say where
-/// its mouth is.
+/// Predicate: whether poses bend, open or roll up the skin of a face, which is so around the eyes and the mouth. True everywhere
+/// when the scene has no landmarks of the mouth.
 std::function<bool(const Face&)> much_moved(const Scene& scene);
-/// Whether skin may wrinkle, if `wanted`.
+/// Predicate: whether the skin of a face may wrinkle. Always false unless `wanted`.
 std::function<bool(const Face&)> may_fold(const Scene& scene, bool wanted);
 
 }  // namespace risorius::render

@@ -16,16 +16,16 @@
 namespace risorius::render {
 namespace {
 
-// Shares of the smaller side of the picture
+// Fractions of the smaller side of the picture
 constexpr double kMargin = 0.030, kBarLength = 0.22, kBarHeight = 0.016, kLetterHeight = 0.017;
 constexpr double kMinLetter_px = 5;
 constexpr double kRim = 0.35;
 
-/// As the shaders show it where light and view come straight on.
+/// The colour that the shaders show when light and view are perpendicular to the surface.
 Vec3 under_skin(const Vec3& muscle, const Appearance& appearance) {
     const Vec3 x =
         (1 - kSkinOverMuscles) * muscle + kSkinOverMuscles * linear_from_srgb(appearance.skin_tone);
-    return x.unaryExpr([](double c) {  // shown() of shader_lighting.cpp
+    return x.unaryExpr([](double c) {  // same as shown() of shader_lighting.cpp
         const double over = std::max(c - kStraightTo, 0.0) / (1 - kStraightTo);
         return std::min(c, kStraightTo) + (1 - kStraightTo) * over / (1 + over);
     });

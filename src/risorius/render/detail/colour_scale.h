@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The colour scale in the upper left corner of a picture: a bar between two numbers, with its name.
+/// The colour scale in the upper left corner of a picture: its name, and a bar between two numbers.
 #pragma once
 
 #include <functional>
@@ -13,13 +13,14 @@ namespace risorius::render {
 
 struct ColourScale {
     std::string name, from, to;
-    std::function<Vec3(double fraction)> colour;  ///< as it is seen, linear; 0 and 1 are the ends
+    /// Linear light as displayed; 0 and 1 are the ends of the bar
+    std::function<Vec3(double fraction)> colour;
 };
 
-/// Sizes follow the smaller side of the picture; text that would be too small to read is left out.
+/// Draws the scale. Its size follows the smaller side of the picture; text that would be too small to read is omitted.
 void draw_colour_scale(const ColourScale& scale, const Background& background, Image& image);
 
-/// Of muscles in uniform light under the skin of the face.
+/// The scale of muscle activation, with muscles in uniform light under the skin of the face.
 ColourScale activation_scale(const Appearance& appearance);
 ColourScale values_scale(const SkinValues& values);
 

@@ -10,7 +10,8 @@ constexpr double kCosineOfCrease = 0.7071;
 
 std::vector<Vec3> crease_normals(const Points& positions, const Triangles& surface) {
     const auto faces = static_cast<std::size_t>(surface.rows());
-    std::vector<Vec3> areas, directions;  // per triangle: twice its area long, and of unit length
+    // Per triangle: normals of twice its area, and unit normals
+    std::vector<Vec3> areas, directions;
     std::vector<std::vector<std::size_t>> around(static_cast<std::size_t>(positions.rows()));
     for (std::size_t f = 0; f < faces; ++f) {
         const auto corner = [&](int k) -> Vec3 {

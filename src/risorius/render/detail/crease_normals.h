@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Normals of a surface with edges: smooth where neighbouring triangles turn little, separate across a crease.
+/// Normals of a surface with sharp edges: smooth across small angles between triangles, separate across a crease.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace risorius::render {
 
-/// One per corner of every triangle, unit length (zero for a triangle without area): the area-weighted mean over the
-/// triangles around the corner's vertex that turn by less than 45 degrees from its own.
+/// Unit normals, one per corner of every triangle (zero for a triangle without area). Each is the area-weighted mean over the
+/// triangles around the vertex of the corner whose normals are within 45 degrees of the corner's own triangle.
 std::vector<Vec3> crease_normals(const Points& positions, const Triangles& surface);
 
 }  // namespace risorius::render

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kSmoothings = 2;
 
-/// The first of those at its place, for each vertex.
+/// For each vertex, the first vertex at the same position.
 std::vector<std::size_t> firsts(const Points& rest) {
     const auto vertices = static_cast<std::size_t>(rest.rows());
     const auto row = [&](std::size_t v) { return rest.row(static_cast<Eigen::Index>(v)); };

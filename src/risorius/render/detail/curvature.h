@@ -9,8 +9,8 @@
 
 namespace risorius::render {
 
-/// Per vertex, 1/m: mean over the edges around it of the turn of the normal per length, smoothed; 0 without triangles.
-/// Vertices at one place (seams) share theirs.
+/// Curvature per vertex, 1/m: the turn of the normal per length, averaged over the edges of the vertex, and smoothed. It is 0 for
+/// a vertex without triangles. Vertices at the same position (seams) share one value.
 std::vector<float> curvature(const Points& rest, const std::vector<unsigned>& triangles);
 
 }  // namespace risorius::render

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Converts samples of linear light in 32-bit floating point to pixels of 16 bits, and these to 8 bits.
+/// Converts samples of linear light in 32-bit floats to pixels of 16 bits per channel, and those to 8 bits.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ class DeepResolve {
   public:
     explicit DeepResolve(const Background& background);
 
-    /// As Resolve, from linear samples, into image.deep and its nearest bytes into image.rgba.
+    /// Like Resolve, for linear samples. Writes image.deep, and its nearest bytes into image.rgba.
     void resolve(const std::vector<float>& samples, int supersampling, const Tile& tile,
                  Image& image) const;
 

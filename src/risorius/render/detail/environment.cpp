@@ -9,7 +9,7 @@ namespace risorius::render {
 namespace {
 
 constexpr int kMirrorHeight = 32;
-constexpr double kLampReach_rad = 0.30;  ///< a sun or a softbox lies within
+constexpr double kLampReach_rad = 0.30;  ///< angular radius that contains a sun or a softbox
 
 const float* cell(const Surroundings& map, int row, int column) {
     return map.rgb.data() +
@@ -21,7 +21,7 @@ Vec3 colour_of(const Surroundings& map, int row, int column) {
     return {c[0], c[1], c[2]};
 }
 
-/// Means over blocks; coarse enough that blurring it is quick.
+/// Averages blocks of the map, so that blurring it is fast.
 Surroundings coarser(const Surroundings& map, int height) {
     if (map.height <= height) return map;
     Surroundings out{2 * height, height,
@@ -93,7 +93,7 @@ Lamp take_brightest(Surroundings& map) {
                 towards = cell_direction(map, row, column);
             }
         }
-    // A lamp is what stands out by more than this over the mean; an overcast sky has none.
+    // A lamp must exceed the mean by this factor; an overcast sky has no lamp.
     const double level = 4 * mean;
     Lamp lamp;
     Vec3 middle = Vec3::Zero();
@@ -114,7 +114,8 @@ Lamp take_brightest(Surroundings& map) {
 }
 
 Irradiance irradiance_of(const Surroundings& map) {
-    // Integral of each basis function's square over the sphere, and what a cosine lobe leaves of its band over pi.
+    // The integral of the square of each basis function over the sphere, and the factor by which a cosine lobe over pi scales its
+    // band.
     constexpr double pi = std::numbers::pi;
     constexpr std::array<double, 9> kSquare{4 * pi,      4 * pi / 3,  4 * pi / 3,
                                             4 * pi / 3,  4 * pi / 15, 4 * pi / 15,
@@ -151,9 +152,10 @@ GLuint mirror_texture(const Surroundings& fine, const Vec3& exposure) {
     }
     std::vector<float> layers;
     for (const double roughness : kMirrorRoughness) {
-        // The mirrored lobe of GGX is about as wide as a spherical Gaussian of this sharpness (Wang 2009): half that of D.
+        // The mirrored lobe of GGX is about as wide as a spherical Gaussian of this sharpness, which is half that of D (Wang
+        // 2009).
         const double sharpness = 0.5 / std::pow(roughness, 4.0);
-        const double min = 1 - 7.0 / sharpness;  // beyond, exp(-7) is nothing
+        const double min = 1 - 7.0 / sharpness;  // exp(-7), the value at this angle, is negligible
         for (std::size_t i = 0; i < cells; ++i) {
             Vec3 sum = Vec3::Zero();
             double weight = 0;

@@ -18,7 +18,7 @@ Vec3 middle(const Points& rest, const Face& face) {
     return (corner(rest, face, 0) + corner(rest, face, 1) + corner(rest, face, 2)) / 3;
 }
 
-/// Place along a space-filling curve: the bits of the three coordinates in turn (Morton 1966).
+/// Position on a space-filling curve: interleaves the bits of the three coordinates (Morton 1966).
 std::uint64_t curve_place(const Vec3& unit) {
     std::uint64_t place = 0;
     for (int bit = 9; bit >= 0; --bit)
@@ -30,7 +30,7 @@ std::uint64_t curve_place(const Vec3& unit) {
 }  // namespace
 
 void wind_outwards(const Points& rest, std::vector<Face>& faces) {
-    // Pieces: vertices joined by a triangle
+    // Components: vertices that are connected by triangles
     std::vector<int> root(static_cast<std::size_t>(rest.rows()));
     std::iota(root.begin(), root.end(), 0);
     const auto find = [&](int v) {
@@ -47,7 +47,7 @@ void wind_outwards(const Points& rest, std::vector<Face>& faces) {
     std::vector<double> volume(root.size(), 0.0);
     for (const Face& face : faces) {
         const int piece = find(face[0]);
-        // About a point of the piece itself, so that open pieces are judged by their own bulge
+        // The origin lies on the component itself, so that an open component is judged by its own bulge.
         const Vec3 origin = rest.row(piece).transpose();
         volume[static_cast<std::size_t>(piece)] +=
             (corner(rest, face, 0) - origin)

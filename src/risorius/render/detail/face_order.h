@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Order and winding of triangles that are fastest to draw.
+/// Winding of triangles, and the order in which they are drawn fastest.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@ namespace risorius::render {
 
 using Face = std::array<int, 3>;
 
-/// Turns each connected piece of a closed solid so that its triangles are counter-clockwise from outside.
+/// Reverses triangles where needed, so that each connected component of a closed solid is counter-clockwise seen from outside.
 void wind_outwards(const Points& rest, std::vector<Face>& faces);
 
-/// Whether a surface that surrounds `inside` is counter-clockwise from outside, by area.
+/// Whether a surface that surrounds `inside` is counter-clockwise seen from outside. Triangles vote by area.
 bool is_wound_outwards(const Points& rest, const std::vector<Face>& faces, const Vec3& inside);
 
-/// Small neighbourhoods together (so that vertices are shaded once), near ones first (so that what they hide fails the depth
-/// test before it is shaded).
+/// Sorts the faces into small clusters, so that each vertex is shaded once, and puts near clusters first, so that what they hide
+/// fails the depth test before it is shaded.
 void order_for_drawing(const Points& rest, const Vec3& camera, std::vector<Face>& faces);
 
 }  // namespace risorius::render

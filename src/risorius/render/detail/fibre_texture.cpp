@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kAcross = 512, kAlong = 128;  ///< texels
 
-/// Values at the knots of a lattice that repeats, smooth between them.
+/// Noise on a repeating lattice, interpolated smoothly between the lattice points.
 class FibreNoise {
   public:
     FibreNoise(int across, int along, unsigned seed) : across_(across), along_(along) {

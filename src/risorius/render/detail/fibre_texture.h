@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The fibres of a muscle as a repeating texture: s across them, t along them.
+/// The fibres of a muscle as a repeating texture: s runs across the fibres, t along them.
 #pragma once
 
 #include "risorius/render/detail/gl.h"
@@ -9,8 +9,8 @@ namespace risorius::render {
 
 constexpr double kFibreTileAcross_m = 0.071, kFibreTileAlong_m = 0.8;
 
-/// Red: height of the bundles, about a millimetre wide, and their strands, 0..1; green: its slope across, about 0.5; blue: the
-/// strands alone.
+/// Makes the texture. Red: height of the bundles, about a millimetre wide, and of their strands, 0..1. Green: slope of the height
+/// across the fibres, with 0.5 for zero. Blue: height of the strands alone.
 GLuint make_fibres();
 
 }  // namespace risorius::render

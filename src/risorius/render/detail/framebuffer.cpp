@@ -92,11 +92,13 @@ void TiledPicture::read_back(const Tile& tile, const Resolve& resolve, const Pic
                              const std::vector<std::uint8_t>& layer, int shaded, Image& image) {
     using Kind = PictureCells::Kind;
     constexpr int kSide = PictureCells::kSide_px;
-    constexpr int kGap = 4;  // cells that are read along rather than left out
+    // Gaps of up to this many cells are read too, because this is faster than another read.
+    constexpr int kGap = 4;
     const auto n = static_cast<std::size_t>(supersampling_), s = static_cast<std::size_t>(shaded);
     const std::size_t layer_row = static_cast<std::size_t>(tile.width) * s * 4;
     const auto end_px = [&](int column) { return std::min((column + 1) * kSide, tile.width); };
-    const auto next = [&](int row, int column, Kind kind) {  // from here on
+    const auto next = [&](int row, int column,
+                          Kind kind) {  // the next cell of a kind, starting here
         while (column < cells.columns() && cells.at(column, row) != kind) ++column;
         return column;
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Render targets: colour and depth of one tile of a picture, and the part of a picture that a tile shows.
+/// Render targets: colour and depth of one tile of a picture, and the tiles of a picture.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,15 +15,15 @@
 
 namespace risorius::render {
 
-/// Limits of every picture drawn here.
+/// Limits of the size of every picture.
 constexpr int kMinSide_px = 16;
 constexpr int kMaxSide_px = 8192;
 constexpr int kMaxSupersampling = 4;
 
-/// Throws Error naming the field for a value outside of [least, most].
+/// Throws Error naming the field for a value outside [min, max].
 void check_range(const char* field, int value, int min, int max);
 
-/// sRGB colour with alpha, or linear colour in floating point, and depth. The context must be current.
+/// Depth, and colour: sRGB with alpha, or linear floats. The context must be current.
 class Framebuffer {
   public:
     enum class Colour { kSrgbBytes, kLinearFloats };
@@ -32,7 +32,7 @@ class Framebuffer {
     Framebuffer(const Framebuffer&) = delete;
     Framebuffer& operator=(const Framebuffer&) = delete;
     void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, framebuffers_[0]); }
-    /// The same store for programs that give the four bytes of sRGB and alpha as one number; not of floats.
+    /// Binds the same memory for programs that write the four bytes of sRGB and alpha as one integer. Not for floats.
     void bind_bytes() const { glBindFramebuffer(GL_FRAMEBUFFER, framebuffers_[1]); }
 
   private:
@@ -40,24 +40,25 @@ class Framebuffer {
     GLuint depth_ = 0;
 };
 
-/// A picture in tiles that the framebuffer can hold.
+/// A picture that is drawn in tiles of the size of the framebuffer.
 class TiledPicture {
   public:
     TiledPicture(int width_px, int height_px, int supersampling);
 
-    /// From now on pictures also get 16 bits per channel over this background; the store holds linear floats.
+    /// From now on pictures also get 16 bits per channel over this background, and the framebuffer holds linear floats.
     void keep_deep(const Background& background) { deep_.emplace(background); }
 
     std::vector<Tile> tiles() const;
     int tile_width_samples() const { return tile_width_ * supersampling_; }
     int tile_height_samples() const { return tile_height_ * supersampling_; }
 
-    /// Makes the tile's part of clip space fill the viewport.
+    /// Matrix that makes the tile's part of clip space fill the viewport.
     Eigen::Matrix4d crop(const Tile& tile) const;
     void set_viewport(const Tile& tile) const;
-    /// What was drawn, into its place in the image.
+    /// Reads the drawn tile into its place in the image.
     void read_back(const Tile& tile, const Resolve& resolve, Image& image);
-    /// The same where the cells need samples; elsewhere the skin layer, `shaded` places per pixel and side, is the picture.
+    /// The same for cells that need samples. The other cells are taken from the skin layer, which has `shaded` x `shaded` places
+    /// per pixel.
     void read_back(const Tile& tile, const Resolve& resolve, const PictureCells& cells,
                    const std::vector<std::uint8_t>& layer, int shaded, Image& image);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// OpenGL 4.5 core as pointers to the functions of whichever back end draws (gl_backend.h): two libraries that both bring gl*
-/// symbols cannot both be linked. A function that is missing here is added to the list.
+/// Function pointers for OpenGL 4.5 core. They point into the library of the current back end (gl_backend.h), because two
+/// libraries that both define gl* symbols cannot be linked together. To use another function, add it to the list.
 #pragma once
 
 #include <GL/glcorearb.h>
@@ -93,7 +93,7 @@ namespace risorius::render {
     X(PFNGLVIEWPORTPROC, glViewport)
 // clang-format on
 
-// Null until gl_backend() has been called; the same for all threads.
+// Null until gl_backend() has been called. All threads share them.
 #define RISORIUS_GL_POINTER(type, name) extern type name;
 RISORIUS_GL_FUNCTIONS(RISORIUS_GL_POINTER)
 #undef RISORIUS_GL_POINTER

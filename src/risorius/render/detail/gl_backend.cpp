@@ -19,12 +19,12 @@ namespace {
 
 struct InUse {
     std::mutex mutex;
-    std::string chosen;  ///< empty: by the environment
+    std::string chosen;  ///< empty: RISORIUS_GL decides
     std::string renderer;
     std::unique_ptr<GlBackend> backend;
 };
 
-/// Never taken down: threads may still draw when statics are.
+/// Never destroyed: threads may still draw during static destruction.
 InUse& in_use() {
     static InUse& one = *new InUse;
     return one;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What differs between the libraries that bring OpenGL: contexts without a window, and where the functions are.
+/// The differences between the libraries that provide OpenGL: creation of contexts without a window, and lookup of functions.
 #pragma once
 
 #include <memory>
@@ -12,24 +12,24 @@ class GlBackend {
   public:
     virtual ~GlBackend() = default;
     virtual const char* name() const = 0;
-    /// A 4.5 core context that has its objects in common with `shared`, or null.
+    /// Makes a context of OpenGL 4.5 core that shares its objects with `shared`. Returns null on failure.
     virtual void* make_context(void* shared) = 0;
     virtual void destroy(void* context) = 0;
-    /// For the calling thread; null: none.
+    /// Makes a context current on the calling thread; null releases the current one.
     virtual bool make_current(void* context) = 0;
     using Function = void (*)();
     virtual Function function(const char* name) const = 0;
 };
 
-/// The back end of the process, made when first asked for. Throws RunError when there is none, and Error for a wrong
-/// RISORIUS_GL. One thread at a time.
+/// The back end of the process, made at the first call. Throws RunError when there is none, and Error for a wrong value of
+/// RISORIUS_GL. Not thread-safe.
 GlBackend& gl_backend();
 
 std::unique_ptr<GlBackend> make_osmesa_backend();
-/// Null where there is no EGL, or none with a graphics processor when that is asked for.
+/// Returns null where EGL is missing, or where no EGL device is a graphics processor and one is required.
 std::unique_ptr<GlBackend> make_egl_backend(bool needs_graphics_processor);
 
-/// After the first context: what it is drawn with.
+/// Records the name of the renderer, after the first context has been made.
 void note_renderer(const std::string& renderer);
 
 }  // namespace risorius::render

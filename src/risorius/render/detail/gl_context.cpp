@@ -34,7 +34,7 @@ GLuint compile(const std::string& name, GLenum stage, const std::string& source)
 }  // namespace
 
 GlContext::GlContext(int threads, const GlContext* shared) {
-    // The driver reads its thread count from the environment when its one screen is made.
+    // The driver reads its thread count from the environment when it creates its only screen.
     const std::lock_guard<std::mutex> lock(driver_mutex());
     setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
     GlBackend& backend = gl_backend();

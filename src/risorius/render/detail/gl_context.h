@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A GL 4.5 core context without a window, and the little ownership GL objects need.
+/// A context of OpenGL 4.5 core without a window, and ownership of GL programs.
 #pragma once
 
 #include <string>
@@ -11,16 +11,17 @@ namespace risorius::render {
 
 class GlContext {
   public:
-    /// `threads` are llvmpipe workers; the first context of a process decides for all later ones. Textures and buffers are
-    /// those of `shared`, and the other way round. Throws RunError when there is no such context.
+    /// `threads`: llvmpipe workers; the first context of a process decides for all later ones. Textures and buffers are shared
+    /// with `shared`, in both directions. Throws RunError when no such context is available.
     explicit GlContext(int threads, const GlContext* shared = nullptr);
     ~GlContext();
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
-    /// Binds to the calling thread for a scope; draws go to framebuffer objects. One context of the process at a time: where a texture
-    /// or buffer is touched, llvmpipe of Mesa 22.3 looks through what all contexts have to draw, without a lock, while they free it
-    /// (about one film in a hundred ended with a segmentation fault). Others have their turn in finish_drawing().
+    /// Binds the context to the calling thread for a scope. Drawing goes to framebuffer objects. Only one context of the process
+    /// is current at a time: when a texture or buffer is touched, llvmpipe of Mesa 22.3 reads the pending draws of all contexts
+    /// without a lock while they free them (about one video in a hundred ended with a segmentation fault). Other threads get
+    /// their turn in finish_drawing().
     class Current {
       public:
         explicit Current(GlContext& context);
@@ -33,10 +34,10 @@ class GlContext {
     void* context_ = nullptr;  ///< of gl_backend()
 };
 
-/// Waits until what was drawn in the context of this thread is drawn; meanwhile other threads may give theirs something to draw.
+/// Waits until all drawing of the current context is done. Meanwhile other threads may submit theirs.
 void finish_drawing();
 
-/// Compiles and links; throws RunError with the compiler's words. An empty fragment source draws depth only.
+/// A compiled and linked program. Throws RunError with the message of the compiler. An empty fragment source draws depth only.
 class GlProgram {
   public:
     GlProgram(const std::string& name, const std::string& vertex, const std::string& fragment);

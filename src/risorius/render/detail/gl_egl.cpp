@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// OpenGL by EGL without a window or surface. The library is looked for when it is needed, so that machines without it can do
-// without.
+// OpenGL by EGL without a window or surface. The library is loaded at run time, so that programs also run on machines without it.
 //
 // Source: EGL_MESA_platform_surfaceless, EGL_EXT_platform_device, EGL_KHR_no_config_context, EGL_KHR_surfaceless_context
-#define EGL_NO_X11 1  // whose macros are everyone's names
+#define EGL_NO_X11 1  // X11 defines macros with common names
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <dlfcn.h>
@@ -17,7 +16,7 @@
 namespace risorius::render {
 namespace {
 
-/// The functions used, of a library that may not be there.
+/// The EGL functions in use, loaded at run time.
 struct Egl {
     decltype(&eglGetProcAddress) get_proc_address = nullptr;
     decltype(&eglQueryString) query_string = nullptr;
@@ -64,7 +63,7 @@ bool has(const char* extensions, const std::string& name) {
            (" " + std::string(extensions) + " ").find(" " + name + " ") != std::string::npos;
 }
 
-/// The first device that is not the processor itself, or none.
+/// The first device that is not the CPU, or EGL_NO_DISPLAY.
 EGLDisplay graphics_processor(const Egl& egl) {
     if (!egl.query_devices || !egl.query_device_string) return EGL_NO_DISPLAY;
     EGLint count = 0;
@@ -106,7 +105,7 @@ class EglBackend : public GlBackend {
     }
 
     void* make_context(void* shared) override {
-        // The interface is a choice of the thread.
+        // The bound API is a state of the thread.
         if (!egl_.bind_api(EGL_OPENGL_API)) return nullptr;
         const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
                                      4,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// OpenGL in memory.
+// OpenGL in memory by OSMesa.
 #include "risorius/render/detail/gl.h"  // the core header comes first
-// Separated, so that sorting includes keeps this order.
+// A comment separates the includes, so that sorting keeps their order.
 #include <GL/osmesa.h>
 
 #include <memory>
@@ -16,7 +16,7 @@ constexpr int kWindowSide = 16;
 
 struct Context {
     OSMesaContext osmesa = nullptr;
-    /// OSMesa insists on a window; nothing is drawn there.
+    /// OSMesa requires a window buffer; nothing is drawn into it.
     std::vector<unsigned char> window = std::vector<unsigned char>(kWindowSide * kWindowSide * 4);
 };
 

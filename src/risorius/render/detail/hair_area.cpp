@@ -9,7 +9,7 @@
 namespace risorius::render {
 namespace {
 
-/// Distance to a line, and how far along it that is, 0..1.
+/// Distance to a polyline, and the position of the nearest point along it, 0..1.
 std::pair<double, double> from_line(const std::vector<Vec3>& line, const Vec3& p) {
     double min = std::numeric_limits<double>::infinity(), along = 0;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -45,7 +45,7 @@ std::optional<Part> HairArea::at(const Vec3& rest) const {
         const std::vector<Vec3>& line = plan_.brows[side];
         if (line.size() < 2 || (rest - line[line.size() / 2]).squaredNorm() > 0.04 * 0.04) continue;
         const auto [distance, along] = from_line(line, rest);
-        // As wide as next_brow_hair() spreads roots, and what hairs reach beyond
+        // The width over which next_brow_hair() spreads roots, plus the reach of the hairs.
         if (distance < 0.0045 * (1 - 0.58 * along))
             return side == 0 ? Part::kBrowLeft : Part::kBrowRight;
     }

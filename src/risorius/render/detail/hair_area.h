@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Where hair covers the skin, by the plan that paints it: brows and scalp.
+/// The areas of the skin that hair covers (brows and scalp), from the same plan that paints them.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@ namespace risorius::render {
 
 class HairArea {
   public:
-    /// Has no hair when the skin is a picture of the mesh's own.
+    /// There is no hair when the skin has a texture of its own.
     explicit HairArea(const Scene& scene);
 
-    /// Kind of hair at a place of the skin at rest.
+    /// The kind of hair at a point of the skin at rest, or none.
     std::optional<Part> at(const Vec3& rest) const;
 
   private:

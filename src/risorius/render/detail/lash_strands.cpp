@@ -7,8 +7,8 @@
 namespace risorius::render {
 namespace {
 
-constexpr double kWindow_rad =
-    0.12;  ///< of azimuth, in which a ribbon is taken to be equally broad
+/// Azimuth, rad, within which the width of a ribbon is taken as constant
+constexpr double kWindow_rad = 0.12;
 
 constexpr double kLidRadius_m = 0.0135;  ///< turns azimuth into length along the lid
 
@@ -28,7 +28,7 @@ std::vector<LashPlace> lash_places(const Scene& scene) {
             for (Eigen::Index i = 0; i < surface.triangles.size(); ++i)
                 places[static_cast<std::size_t>(surface.triangles.data()[i])].is_lash = true;
 
-    // Seen from the middle of the eye, hairs grow straight away from it.
+    // Seen from the centre of the eye, hairs grow radially outwards.
     std::vector<Lash> lashes;
     for (std::size_t v = 0; v < places.size(); ++v) {
         if (!places[v].is_lash) continue;
@@ -39,7 +39,7 @@ std::vector<LashPlace> lash_places(const Scene& scene) {
         lashes.push_back({v, eye, d.y() < 0, std::atan2(d.x(), d.z()), d.norm()});
     }
     for (const Lash& lash : lashes) {
-        // Root and tip are the nearest and the farthest of the ribbon hereabouts.
+        // Root and tip are the nearest and the farthest vertex of the ribbon around this azimuth.
         double root = lash.radius, tip = lash.radius;
         for (const Lash& other : lashes) {
             if (other.eye != lash.eye || other.lower != lash.lower ||

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Places on a ribbon of eyelashes, so that single hairs can be cut out of it without texture or alpha.
+/// Positions on a ribbon of eyelashes, from which single hairs are cut without texture or alpha.
 #pragma once
 
 #include <vector>
@@ -12,11 +12,11 @@ namespace risorius::render {
 struct LashPlace {
     bool is_lash = false;
     bool lower_lid = false;
-    float along_m = 0.0F;   ///< of its root, along the lid
-    float fraction = 0.0F;  ///< of the way from root to tip
+    float along_m = 0.0F;   ///< position of the root along the lid
+    float fraction = 0.0F;  ///< from root (0) to tip (1)
 };
 
-/// One per vertex of the scene. Roots are the edge of the ribbon nearest to the middle of the eye.
+/// One LashPlace per vertex of the scene. The roots are the edge of the ribbon nearest to the centre of the eye.
 std::vector<LashPlace> lash_places(const Scene& scene);
 
 }  // namespace risorius::render

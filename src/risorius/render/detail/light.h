@@ -2,8 +2,8 @@
 /// \file
 /// The lighting of a picture: lamps, surroundings and exposure.
 ///
-/// Exposure and white balance depend only on the light: a grey card of 18 % at the face towards the camera is 18 % in linear light in every
-/// picture. Below kStraightTo the picture is linear in light.
+/// Exposure and white balance depend only on the light: a grey card of 18 % reflectance at the face, turned to the camera, has a
+/// linear value of 0.18 in every picture. Below kStraightTo the picture is linear in light.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@
 
 namespace risorius::render {
 
-/// Radiance from all around, latitude by longitude: rows from straight up, columns from straight behind over the subject's
-/// right, front (the middle) and left. Only ratios count.
+/// Radiance from all directions as a latitude-longitude map. Rows start straight up. Columns start straight behind and run over
+/// the subject's right to the front (the middle) and the left. Only ratios count.
 struct Surroundings {
     int width = 0, height = 0;
     std::vector<float> rgb;  ///< 3 per cell, linear
@@ -21,10 +21,10 @@ struct Surroundings {
 };
 
 struct LightOptions {
-    std::string preset = "studio";             ///< light_names(); goes with the camera
-    std::optional<Surroundings> surroundings;  ///< in place of the preset; stands still
-    double turn_deg = 0;     ///< of the whole light about the vertical, to the subject's left
-    double exposure_ev = 0;  ///< on top of what the grey card asks for, stops, -10..10
+    std::string preset = "studio";             ///< one of light_names(); moves with the camera
+    std::optional<Surroundings> surroundings;  ///< replaces the preset; fixed to the head frame
+    double turn_deg = 0;  ///< rotation of all light about the vertical, towards the subject's left
+    double exposure_ev = 0;  ///< added to the exposure of the grey card, stops, -10..10
     bool operator==(const LightOptions&) const = default;
 };
 

@@ -13,12 +13,12 @@ namespace {
 constexpr int kPresetHeight = 32;
 
 struct LampRecipe {
-    double aside_deg,
-        up_deg;  ///< from the camera, away from the side the face looks to in mirrored views
+    /// Relative to the camera; in mirrored views away from the side that the face looks to.
+    double aside_deg, up_deg;
     Vec3 card;
 };
 
-// Ratios of a card that faces each lamp; surroundings: straight up, level, straight down.
+// Relative light of a card that faces each lamp. Surroundings: from straight up, level, straight down.
 struct Preset {
     const char* name;
     LampRecipe key, fill, rim;
@@ -73,7 +73,7 @@ const Preset& preset_named(const std::string& name) {
     throw Error("light/preset", "one of " + known, "\"" + name + "\"");
 }
 
-/// The map turned about the vertical, to the nearest cell.
+/// The map rotated about the vertical, to the nearest cell.
 Surroundings turned(const Surroundings& map, double turn_deg) {
     const int by = static_cast<int>(std::lround(turn_deg / 360 * map.width));
     Surroundings out = map;
@@ -110,7 +110,7 @@ LightPlan plan_light(const LightOptions& options, double camera_azimuth_rad) {
         return plan;
     }
     const Preset& preset = preset_named(options.preset);
-    // The key stands on the side the face looks to, so that cheek and nose model; mirrored with the camera.
+    // The key stands on the side that the face looks to, so that it models cheek and nose. It is mirrored with the camera.
     const double side = camera_azimuth_rad < -0.02 ? -1 : 1;
     const double turn = options.turn_deg * std::numbers::pi / 180;
     const auto lamp = [&](const LampRecipe& recipe) {

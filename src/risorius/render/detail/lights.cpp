@@ -8,10 +8,12 @@ namespace risorius::render {
 namespace {
 
 constexpr int kShadowSide = 1024;
-constexpr int kLow_px = 640;  ///< pictures whose pixels are wider than places of half a shadow map
-constexpr double kClose_m = 0.12e-3;  ///< pixels of close-ups, which would show places of the map
-constexpr double kShadowReachPerFrame =
-    0.62;  ///< half width of the map over the height of the frame
+/// Pictures of at most this height use half the shadow map: their pixels are wider than its texels
+constexpr int kLow_px = 640;
+/// Pixel size of close-ups, in which texels of the map would show
+constexpr double kClose_m = 0.12e-3;
+/// Half width of the map, ratio to the height of the frame
+constexpr double kShadowReachPerFrame = 0.62;
 
 int shadow_side(const Camera& camera, int height_px, bool draft) {
     if (draft || height_px <= kLow_px) return kShadowSide / 2;
@@ -124,7 +126,7 @@ void Lights::draw_shadow(SceneBuffers& buffers, const Eigen::Matrix4f* clip_from
     glClear(GL_DEPTH_BUFFER_BIT);
     program_.use();
     glUniformMatrix4fv(clip_location_, 1, GL_FALSE, clip_from_world_.data());
-    // Skin throws all shadows that show: on itself, on the eyes, on the teeth.
+    // The skin casts all visible shadows: on itself, on the eyes and on the teeth.
     if (shadow_) {
         buffers.choose_casters(clip_from_world_, clip_from_world);
         for (const Batch& batch : buffers.batches()) buffers.draw(batch, Purpose::kShadow);

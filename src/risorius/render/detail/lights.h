@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The light of a view: a key lamp with shadow, fill, a rim from behind, and surroundings, exposed on a grey card.
+/// The light of a view: key lamp with shadow, fill, rim light from behind, and surroundings, exposed for a grey card.
 #pragma once
 
 #include "risorius/render/detail/camera.h"
@@ -13,34 +13,35 @@
 
 namespace risorius::render {
 
-/// A light before it is exposed, frame of the head.
+/// Light before exposure, in the head frame.
 struct LightPlan {
     Lamp key, fill, rim;
     Surroundings surroundings;
-    Vec3 forward = Vec3::UnitZ();  ///< where the grey card looks
+    Vec3 forward = Vec3::UnitZ();  ///< normal of the grey card
 };
 
-/// Throws Error for an unknown preset or numbers out of range. Presets go with the camera, which stands at this azimuth.
+/// Throws Error for an unknown preset and for numbers out of range. Presets move with the camera, whose azimuth is given.
 LightPlan plan_light(const LightOptions& options, double camera_azimuth_rad);
 
-/// Factor per channel that makes a white card shine with 1.
+/// Factor per channel that gives a white card the value 1.
 Vec3 exposure_for(const LightPlan& plan, double exposure_ev);
 
 class Lights {
   public:
-    /// `height_px`: of the picture; low ones and drafts get a shadow of half as many places.
+    /// `height_px`: height of the picture. Small pictures and drafts get a shadow map with half as many texels per side.
     Lights(const Camera& camera, const Vec3& head_centre, const LightOptions& options,
            int height_px, bool draft);
     ~Lights();
     Lights(const Lights&) = delete;
     Lights& operator=(const Lights&) = delete;
 
-    /// Lights and shadow of all frames, for programs whose source begins with the frame.
+    /// Constants of light and shadow, the same in all frames, for programs whose source begins with frame_chunk().
     ShaderConstants constants() const;
-    /// All but clip_from_world.
+    /// All uniforms except clip_from_world.
     FrameUniforms uniforms(const MouthGap& gap) const;
 
-    /// Draws the shadow map of the bound scene, for what is seen in the clip space if one is given, and binds what lights look up.
+    /// Draws the shadow map of the bound scene and binds the textures that lights read. With a clip space, only shadows that are
+    /// visible in it are drawn.
     void draw_shadow(SceneBuffers& buffers, const Eigen::Matrix4f* clip_from_world) const;
 
   private:
@@ -49,7 +50,7 @@ class Lights {
     GlProgram program_;
     GLint clip_location_ = -1;
     int shadow_side_;
-    bool shadow_ = true;  ///< nothing to throw one without a key lamp
+    bool shadow_ = true;  ///< false without a key lamp
     GLuint shadow_map_ = 0, framebuffer_ = 0, mirror_ = 0;
 };
 

@@ -23,7 +23,7 @@ LipArea::LipArea(const std::map<std::string, Vec3>& landmarks) {
 
 bool LipArea::contains(const Vec3& rest) const {
     if (border_.empty() || rest.z() < behind_m_) return false;
-    bool inside = false;  // crossings of a ray to the left
+    bool inside = false;  // even-odd rule: counts crossings of a ray to the left
     for (std::size_t i = 0, j = border_.size() - 1; i < border_.size(); j = i++) {
         const Vec2 &a = border_[i], &b = border_[j];
         if ((a.y() > rest.y()) != (b.y() > rest.y()) &&

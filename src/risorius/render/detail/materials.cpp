@@ -41,7 +41,8 @@ bool inside_mouth(Material material) {
 }
 
 constexpr double kSkinRoughness = 0.52;
-constexpr double kPore_m = 0.5e-3;  ///< with its rim: wider samples show their mean, which is flat
+/// Width of a pore with its rim. Wider samples show the mean, which is flat
+constexpr double kPore_m = 0.5e-3;
 
 // Linear albedo of the mucosa
 const Vec3 kGums(0.42, 0.12, 0.11), kTongue(0.38, 0.10, 0.09), kMouth(0.24, 0.045, 0.04);
@@ -55,7 +56,7 @@ void set(GLint location, const Mat3& m) {
     glUniformMatrix3fv(location, 1, GL_FALSE, f.data());
 }
 
-// How a material meets soft light: see the uniforms of surface_vertex_shader().
+// Response of a material to soft light: see the uniforms of surface_vertex_shader().
 struct Finish {
     double roughness, reflectance, fraction, mirror_layer;
     Vec3 scatter_m;
@@ -81,8 +82,8 @@ Finish finish_of(Material material, const Vec3& skin_scatter_m) {
     return {0.5, 0.0, 0.0, 3, Vec3::Zero()};
 }
 
-/// How far light goes in skin of an albedo before it comes out again, m: the mean free path of Caucasian skin (Jensen 2001:
-/// diffuse distances 3.67, 1.37 and 0.68 mm at albedos .44, .22, .13) by the scaling of Christensen and Burley 2015.
+/// Mean free path of light in skin of an albedo before it leaves again, m. Values for Caucasian skin: diffuse distances 3.67,
+/// 1.37 and 0.68 mm at albedos 0.44, 0.22 and 0.13 (Jensen 2001), scaled after Christensen and Burley 2015.
 Vec3 skin_scatter(const Vec3& albedo) {
     const auto scaling = [](double a) { return 1.85 - a + 7 * std::pow(std::abs(a - 0.8), 3); };
     const Vec3 distance(3.67e-3, 1.37e-3, 0.68e-3), measured(0.44, 0.22, 0.13);
@@ -98,7 +99,7 @@ double matte_reflectance(const Scene& scene) {
     return 0;
 }
 
-/// Rows are the axes of the eye: across, up, forward.
+/// Rows are the axes of the eye: right, up, forward.
 Mat3 eye_axes(const Eye& eye) {
     const Vec3 forward = eye.forward.normalized();
     const Vec3 across = Vec3::UnitY().cross(forward).normalized();
@@ -121,7 +122,8 @@ ShaderConstants Materials::constants_of(const Scene& scene, Material material, i
                                                 .cast<float>()));
     switch (material) {
         case Material::kSkin:
-            // In proportion to how far red light gets; half a millimetre of light's own softness shows no colour.
+            // In proportion to the distance that each colour travels beyond the shortest one. The softness of the light itself,
+            // half a millimetre, shows no colour.
             constants.set("bleed", Vec3(140 * (scatter.array() - scatter.minCoeff()).matrix()));
             constants.set("roughness", kSkinRoughness);
             constants.set("tone", skin.dot(Vec3(0.2126, 0.7152, 0.0722)));
@@ -188,7 +190,7 @@ Materials::Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin,
         if (batch.material == Material::kCornea)
             separate_cornea_[static_cast<std::size_t>(batch.eye)] = true;
 
-    // The iris stands in the plane of the limbus: where the eye's own surface is as wide as the iris.
+    // The iris lies in the plane of the limbus, where the surface of the eye is as wide as the iris.
     for (std::size_t side = 0; side < 2; ++side) {
         const Eye& eye = eyes_[side];
         const Mat3 axes = eye_axes(eye);

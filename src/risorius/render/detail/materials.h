@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The shader program of each material and its constants of the head.
+/// The shader program of each material, and its constants for this head.
 #pragma once
 
 #include <array>
@@ -18,29 +18,26 @@ namespace risorius::render {
 
 class Materials {
   public:
-    /// How the skin is shaded.
-    enum class Skin {
-        kPlain,
-        kVeil,
-        kLayer
-    };  ///< by itself, over `muscles`, for others to look up
-    /// `draft`: skin that is not a veil is lit at its vertices. `shaded_m`: between places where skin is shaded. `constants` of Lights.
+    /// How the skin is shaded: by itself, as a veil over the muscles, or into a layer for lookup.
+    enum class Skin { kPlain, kVeil, kLayer };
+    /// `draft`: skin is lit at its vertices, unless it is a veil. `shaded_m`: distance between the shaded places of the skin.
+    /// `constants`: of Lights.
     Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin, bool draft,
               double shaded_m, const ShaderConstants& constants, const MuscleLayer* muscles);
 
     /// Makes the batch's program current, with blending for the cornea.
     void use(const Batch& batch, const Pose& pose, const PosedMarks& marks) const;
     void done() const;
-    /// Tells another program the colours of a material, and of an eye at rest its measures.
+    /// Sets the colours of a material in another program, and for an eye its measures at rest.
     void tell_colours(const GlProgram& program, Material material, int eye) const;
-    /// Draws the skin, with folds where it has some.
+    /// Draws the skin, with wrinkles where it has them.
     void draw_skin(const Batch& batch, const SceneBuffers& buffers) const;
 
   private:
-    /// Each has a program of its own.
+    /// Each kind has its own program.
     struct Kind {
         Material material;
-        bool own;  ///< of own, not generated colours
+        bool own;  ///< coloured by the mesh's own texture instead of generated colours
         int eye;
         auto operator<=>(const Kind&) const = default;
     };
@@ -57,7 +54,7 @@ class Materials {
 
     std::map<Kind, std::unique_ptr<GlProgram>> programs_;
     std::unique_ptr<GlProgram> folded_skin_;     ///< when the scene has folds
-    mutable std::unique_ptr<GlProgram> values_;  ///< made when values are first shown
+    mutable std::unique_ptr<GlProgram> values_;  ///< made when values are shown for the first time
     std::array<Eye, 2> eyes_;
     std::array<bool, 2> separate_cornea_{false, false};
     std::array<double, 2> iris_depth_m_{0, 0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The buffer of a surface that moves: positions and smooth normals.
+/// The GL buffer of a moving surface: positions and smooth normals.
 #pragma once
 
 #include <string>
@@ -19,10 +19,10 @@ class MovingSurface {
     MovingSurface(const MovingSurface&) = delete;
     MovingSurface& operator=(const MovingSurface&) = delete;
 
-    /// As the attributes kPosition and kNormal of the vertex array that is bound.
+    /// Attaches the buffer to the attributes kPosition and kNormal of the bound vertex array.
     void attach() const;
 
-    /// Positions, m, one row per vertex; throws Error with the place for another number of them.
+    /// Uploads positions, m, one row per vertex. Throws Error naming `place` for another number of rows.
     void upload(const Points& positions, const std::string& place);
 
   private:

@@ -14,20 +14,22 @@ namespace risorius::render {
 
 class MuscleLayer {
   public:
-    /// As large as the framebuffer of a tile of the picture, which is `picture_samples` high. Throws Error for triangles that name a vertex there is not.
+    /// The layer is as large as the framebuffer of a tile. `picture_samples`: height of the whole picture, samples. Throws Error
+    /// for triangles with a vertex index out of range.
     MuscleLayer(const Scene& scene, const Camera& camera, int picture_samples, int width_samples,
                 int height_samples);
     ~MuscleLayer();
     MuscleLayer(const MuscleLayer&) = delete;
     MuscleLayer& operator=(const MuscleLayer&) = delete;
 
-    /// Throws Error when the pose has other muscles than the scene.
+    /// Throws Error when the pose and the scene have different muscles.
     void upload(const Pose& pose);
 
-    /// Draws the part of the picture that the frame's uniforms and the viewport are set to, and binds it to its texture units.
+    /// Draws the part of the picture that the uniforms of the frame and the viewport select, and binds the layer to its texture
+    /// units.
     void draw() const;
 
-    /// What a program that looks into the layer has to know of the camera.
+    /// Sets what a program that reads the layer needs to know of the camera.
     void set_uniform(const GlProgram& program) const;
 
   private:
@@ -36,9 +38,10 @@ class MuscleLayer {
     std::vector<int> muscle_of_vertex_;
     MovingSurface surface_;
     std::vector<float> colours_;
-    Vec2 distance_of_depth_;    ///< distance along the view = y / (2 depth - 1 + x)
-    Vec3 right_;                ///< of the camera
-    double samples_per_slope_;  ///< of the picture, across a metre a metre away
+    Vec2 distance_of_depth_;  ///< distance along the view direction = y / (2 depth - 1 + x)
+    Vec3 right_;              ///< unit, right axis of the camera
+    /// Samples of the picture across one metre at a distance of one metre
+    double samples_per_slope_;
     GlProgram program_;
     GLsizei index_count_ = 0;
     GLuint array_ = 0, colour_buffer_ = 0, fixed_buffer_ = 0, elements_ = 0;

@@ -8,15 +8,16 @@
 namespace risorius::render {
 namespace {
 
-constexpr double kDistancePerReach =
-    6.0;                            ///< mild perspective: near edges at most 1.4 times far ones
-constexpr double kMargin = 0.05;    ///< of the picture's shorter side, all around
-constexpr double kMinReach = 1e-3;  ///< of an object's distance from the origin: GL has six digits
-constexpr double kMinWidth =
-    0.02;                      ///< tangent that the picture spans, for objects that are a point
-constexpr double kGap = 0.14;  ///< between objects, of their mean width
+/// Camera distance in object radii, a mild perspective: near edges appear at most 1.4 times as long as far ones
+constexpr double kDistancePerReach = 6.0;
+constexpr double kMargin = 0.05;  ///< fraction of the shorter side of the picture, on all sides
+/// Minimum of object radius over distance from the origin: GL floats have six digits
+constexpr double kMinReach = 1e-3;
+/// Minimum tangent that the picture spans, for objects that are a single point
+constexpr double kMinWidth = 0.02;
+constexpr double kGap = 0.14;  ///< between objects, fraction of their mean width
 
-/// What of the picture plane an object covers, as tangents of angles at its camera.
+/// The extent of an object in the picture plane, as tangents of angles at its camera.
 struct Extent {
     double left = INFINITY, right = -INFINITY, bottom = INFINITY, top = -INFINITY;
     double width() const { return right - left; }
@@ -50,7 +51,7 @@ ObjectAxes object_axes(double azimuth_deg, double elevation_deg) {
 
 ObjectRow frame_objects(const std::vector<const Points*>& objects, const ObjectAxes& axes,
                         int width_px, int height_px) {
-    // Middles: each object's own across, one height for all
+    // Centres: sideways each object's own, vertically one for all objects.
     double low = INFINITY, high = -INFINITY;
     for (const Points* positions : objects) {
         low = std::min(low, positions->col(2).minCoeff());
@@ -69,7 +70,7 @@ ObjectRow frame_objects(const std::vector<const Points*>& objects, const ObjectA
     }
     row.distance_m = kDistancePerReach * row.reach_m;
 
-    // What they cover, side by side
+    // The extents side by side
     std::vector<Extent> extents;
     double width = 0, bottom = INFINITY, top = -INFINITY;
     for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -83,7 +84,7 @@ ObjectRow frame_objects(const std::vector<const Points*>& objects, const ObjectA
     const double gap = kGap * width / count;
     width += gap * (count - 1);
 
-    // The scale at which they fill the picture but for its margin
+    // The scale at which the row fills the picture up to the margin
     const double margin_px = kMargin * std::min(width_px, height_px);
     const double tangent_per_px =
         std::max({width / (width_px - 2 * margin_px), (top - bottom) / (height_px - 2 * margin_px),
@@ -98,7 +99,7 @@ ObjectRow frame_objects(const std::vector<const Points*>& objects, const ObjectA
         Eigen::Matrix4d view = Eigen::Matrix4d::Identity();
         view.block<3, 3>(0, 0) = turn;
         view.block<3, 1>(0, 3) = -turn * camera;
-        // x and y over depth, shifted; depth itself is not needed, things are drawn in order
+        // X and y divided by depth, and shifted. Depth itself is not needed because parts are drawn in order.
         Eigen::Matrix4d project = Eigen::Matrix4d::Zero();
         project(0, 0) = across;
         project(0, 2) = -across * (place - extents[i].left);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// One camera per object of a row, all of the same kind: same direction, distance and scale, each centred on its own.
+/// One camera per object of a row. All have the same direction, distance and scale; each is centred on its own object.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,15 +18,15 @@ ObjectAxes object_axes(double azimuth_deg, double elevation_deg);
 
 struct ObjectCamera {
     Vec3 position;                    ///< m
-    Eigen::Matrix4d clip_from_world;  ///< its depth is 0 everywhere: nothing is cut off
+    Eigen::Matrix4d clip_from_world;  ///< its depth is 0 everywhere, so nothing is clipped
 };
 
 struct ObjectRow {
     ObjectAxes axes;
     std::vector<ObjectCamera> cameras;  ///< one per object
-    double reach_m;                     ///< radius of the largest object about its middle
-    double distance_m;                  ///< of a camera from the middle of its object
-    double pixel_m;                     ///< size of a pixel there
+    double reach_m;                     ///< radius of the largest object about its centre
+    double distance_m;                  ///< from a camera to the centre of its object
+    double pixel_m;                     ///< size of a pixel at that distance
 };
 
 /// Frames every vertex of every object, with a margin.

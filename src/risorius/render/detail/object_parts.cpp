@@ -21,13 +21,14 @@ const Vec3 kOutline(0.48, 0.50, 0.53);
 const Vec3 kHeld(0.62, 0.075, 0.02);
 
 constexpr double kWire_px = 2.0;
-constexpr double kInnerWireFraction = 0.55;  ///< of the width of a wire on the surface
-constexpr double kCurve_px = 4.5;            ///< where there is no surface
+constexpr double kInnerWireFraction = 0.55;  ///< fraction of the width of a wire on the surface
+constexpr double kCurve_px = 4.5;            ///< width of lines where there is no surface
 constexpr double kOutline_px = 1.4;
-constexpr double kWidestWirePerCell = 0.1;  ///< so that fine grids stay grids
-constexpr double kBallPerCell = 0.13;       ///< radius
+/// Ratio to the cell; keeps the wires of fine grids apart
+constexpr double kWidestWirePerCell = 0.1;
+constexpr double kBallPerCell = 0.13;  ///< radius, ratio to the cell
 constexpr double kMinBall_px = 3.5, kMaxBall_px = 9.0;
-constexpr double kNearerPerCell = 0.5;  ///< how much nearer a wire counts than it is
+constexpr double kNearerPerCell = 0.5;  ///< ratio to the cell by which wires are moved nearer
 
 struct Part {
     double depth;  ///< from the camera, m
@@ -49,7 +50,7 @@ class Parts {
         add_outline();
         add_wires();
         add_balls();
-        // Equal depths keep the order they were made in.
+        // Parts of equal depth keep their order.
         std::stable_sort(parts_.begin(), parts_.end(),
                          [](const Part& a, const Part& b) { return a.depth > b.depth; });
         std::vector<PartVertex> ordered;
@@ -107,7 +108,7 @@ class Parts {
         }
     }
 
-    /// Pairs of vertices along a triangle, smaller first, in order.
+    /// Pairs of vertices along the edges of triangles, smaller index first, sorted.
     std::vector<std::pair<int, int>> surface_edges() const {
         std::vector<std::pair<int, int>> edges;
         for (Eigen::Index f = 0; f < object_.surface.rows(); ++f)
@@ -121,7 +122,7 @@ class Parts {
         return edges;
     }
 
-    /// Paler with distance over the depth of the largest object.
+    /// The colour of a wire, paler with distance, over the depth of the largest object.
     Vec3 paled(const Vec3& p, const Vec3& near, const Vec3& far) const {
         const double t = (depth(p) - row_.distance_m) / (2 * row_.reach_m) + 0.5;
         return near + std::clamp(t, 0.0, 1.0) * (far - near);
@@ -155,9 +156,9 @@ class Parts {
         const Vec3 middle = (a + b) / 2;
         const Vec3 along = (b - a).normalized();
         Vec3 across = along.cross(camera_.position - middle);
-        if (across.norm() < 1e-9 * row_.distance_m) return;  // seen end on, or of no length
+        if (across.norm() < 1e-9 * row_.distance_m) return;  // seen end on, or without length
         across *= half / across.norm();
-        // A little longer, so that lines meet in a filled corner
+        // Lengthened a little, so that lines meet in a filled corner.
         a -= half * along;
         b += half * along;
         for (const auto& [p, colour] :
@@ -178,7 +179,7 @@ class Parts {
                  {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, -1), Vec2(1, 1), Vec2(-1, 1)})
                 push(at(v) + radius * (place.x() * row_.axes.right + place.y() * row_.axes.up),
                      Vec3::Zero(), kHeld, PartKind::kBall, place);
-            // Before the wires that end in it, the one towards the camera included
+            // The ball is drawn before the wires that end in it, including the one towards the camera.
             end_part(depth(at(v)) - 2 * kNearerPerCell * cell_ - radius);
         }
     }

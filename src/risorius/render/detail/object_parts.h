@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Triangles, wires and balls of an object as one list of triangles from far to near, ready to be blended in that order.
+/// Triangles, wires and balls of an object as one list of triangles, sorted from far to near and ready to be blended in that
+/// order.
 ///
-/// Each keeps its depth by its middle (the painter's order, Newell, Newell and Sancha 1972), which is right for the even
-/// meshes of grids; wires count as half a cell nearer, so that they lie on the surface they belong to.
+/// Each part is sorted by the depth of its centre (painter's algorithm, Newell, Newell and Sancha 1972), which is right for the
+/// even meshes of grids. Wires are moved half a cell nearer, so that they lie on their own surface.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +15,18 @@
 
 namespace risorius::render {
 
-/// What the fragment shader does with a vertex.
+/// Tells the fragment shader how to draw a vertex.
 enum class PartKind : std::uint8_t { kSurface = 0, kWire = 1, kBall = 2 };
 
 struct PartVertex {
     float position[3];  ///< m, world
-    float normal[3];    ///< camera axes; of surfaces
+    float normal[3];    ///< in camera axes; for surfaces
     float colour[3];    ///< linear
-    float place[2];     ///< across a ball, -1..1
+    float place[2];     ///< position on a ball, -1..1
     float kind;
 };
 
-/// Throws Error naming `place` for indices that name no vertex and positions that are not finite.
+/// Throws Error naming `place` for vertex indices out of range and positions that are not finite.
 void check_object(const Object& object, const std::string& place);
 
 std::vector<PartVertex> object_parts(const Object& object, const ObjectRow& row,

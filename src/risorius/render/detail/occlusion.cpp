@@ -13,9 +13,9 @@ namespace {
 
 constexpr int kSide = 512;
 constexpr int kSkyDirections = 48;
-constexpr double kLift_m = 0.0012;  ///< off the surface, against shadowing itself
+constexpr double kLift_m = 0.0012;  ///< offset from the surface, against self-shadowing
 constexpr double kBias_m = 0.0010;
-constexpr double kNoise_m = 0.003;  ///< texels of the maps show in what lies nearer together
+constexpr double kNoise_m = 0.003;  ///< distance below which texels of the depth maps show as noise
 
 }  // namespace
 
@@ -93,7 +93,7 @@ std::vector<float> sky_seen(const Points& positions, const std::vector<float>& n
 std::vector<float> with_neighbours(std::vector<float> seen, const Points& positions,
                                    const std::vector<float>& normals,
                                    const std::vector<unsigned>& corners, int passes) {
-    // A thin edge keeps its sides apart.
+    // The two sides of a thin edge are not mixed.
     const auto shared = [&](unsigned a, unsigned b) {
         const std::size_t i = 3 * static_cast<std::size_t>(a), j = 3 * static_cast<std::size_t>(b);
         const double along = normals[i] * normals[j] + normals[i + 1] * normals[j + 1] +
@@ -133,7 +133,7 @@ SkyAboutEyes::SkyAboutEyes(const Scene& scene, std::vector<float> at_rest,
             const Vec3 off = scene.rest.row(static_cast<Eigen::Index>(v)).transpose() - at.centre;
             const double t =
                 std::clamp((kUpTo - off.norm() / at.radius_m) / (kUpTo - kWithin), 0.0, 1.0);
-            // Where the reaches of both eyes overlap, each has its own part
+            // Where the zones of both eyes overlap, each has its own entry.
             if (t > 0)
                 near_.push_back(
                     {static_cast<int>(v), eye, static_cast<float>(t) * (shut[v] - at_rest_[v])});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// How much of the sky each vertex sees, from depth renders along many directions: at rest, and about eyes that shut.
+/// How much of the sky each vertex sees, measured by depth renders along many directions: at rest, and while the eyes close.
 #pragma once
 
 #include <array>
@@ -13,19 +13,21 @@
 
 namespace risorius::render {
 
-/// Cosine-weighted fraction of unblocked directions, 0..1 per vertex. Draws the batches of the bound vertex array except lashes, whose ribbons
-/// would darken the lids as if they were solid; the context must be current. 48 directions, one depth render of 512 x 512 each.
+/// Cosine-weighted fraction of directions that are not blocked, 0..1 per vertex. Draws the batches of the bound vertex array.
+/// Lashes are left out, because their solid ribbons would darken the lids. Uses 48 directions, each with one depth render of 512
+/// x 512. The context must be current.
 std::vector<float> sky_seen(const Points& positions, const std::vector<float>& normals,
                             const std::vector<Batch>& batches, const Vec3& centre, double radius_m);
 
-/// Each time up to half of it from the vertices around in triangles of `corners`, less the farther they are and the more they are turned
-/// away: maps of so few points are noise from one vertex to the next where a surface folds finely.
+/// Smooths `seen` over the triangles of `corners`. In each pass up to half of a value comes from the vertices around it, with
+/// less weight for far ones and for normals that differ. Where a surface folds finely, depth maps of this size are noisy from
+/// vertex to vertex.
 std::vector<float> with_neighbours(std::vector<float> seen, const Points& positions,
                                    const std::vector<float>& normals,
                                    const std::vector<unsigned>& corners, int passes);
 
-/// What the skin sees while the lids close: crease and lid come to the light as one unrolls from the other. Between the eyes open
-/// and shut it changes with each eye's own closure; away from the eyes it is that of rest.
+/// The sky that the skin sees while the lids close: the crease and the lid come to light as the lid unrolls. Near an eye the
+/// value moves from that of open to that of closed eyes with the eye's closure; elsewhere it is that of rest.
 class SkyAboutEyes {
   public:
     SkyAboutEyes(const Scene& scene, std::vector<float> at_rest, const std::vector<float>& shut);

@@ -20,7 +20,7 @@ Corners sorted(Corners corners) {
     return corners;
 }
 
-/// Colours are decoded from sRGB before they are averaged over levels.
+/// Colours are decoded from sRGB before mip levels are averaged.
 GLuint texture_of(const Image& image) {
     GLuint texture = 0;
     glGenTextures(1, &texture);
@@ -28,7 +28,7 @@ GLuint texture_of(const Image& image) {
     int levels = 1;
     while ((std::max(image.width_px, image.height_px) >> levels) > 0) ++levels;
     glTexStorage2D(GL_TEXTURE_2D, levels, GL_SRGB8_ALPHA8, image.width_px, image.height_px);
-    // Texture coordinates count from below.
+    // Texture coordinates start at the bottom row.
     for (int y = 0; y < image.height_px; ++y)
         glTexSubImage2D(GL_TEXTURE_2D, 0, 0, image.height_px - 1 - y, image.width_px, 1, GL_RGBA,
                         GL_UNSIGNED_BYTE, image.pixel(0, y));
@@ -40,7 +40,7 @@ GLuint texture_of(const Image& image) {
     return texture;
 }
 
-/// Gradient and offset of one texture coordinate over the plane of a triangle.
+/// Gradient and offset of one texture coordinate as a linear function on the plane of a triangle.
 Eigen::Vector4f affine(const std::array<Vec3, 3>& p, const Vec3& value) {
     const Vec3 a = p[1] - p[0], b = p[2] - p[0];
     const double aa = a.dot(a), ab = a.dot(b), bb = b.dot(b), area = aa * bb - ab * ab;
@@ -169,7 +169,7 @@ void OwnTextures::paint_skin(const Scene& scene, const Vec3& paint_centre,
             for (Eigen::Index k = 0; k < 3; ++k) {
                 const Vec3 p = scene.rest.row(surface.triangles(f, k)).transpose();
                 const Vec2 place = paint_place(p, paint_centre);
-                // As in the paint: the farther out, the nearer
+                // As in the paint map, points farther out win the depth test.
                 const double depth = 1 - 2 * std::min((p - paint_centre).norm() / 0.5, 1.0);
                 corners.push_back({{static_cast<float>(place.x()), static_cast<float>(place.y())},
                                    static_cast<float>(depth),

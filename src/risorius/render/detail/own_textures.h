@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The mesh's own textures: baked into the paint of the skin, and sampled on eyes, teeth and tongue.
+/// The mesh's own textures: baked into the paint map of the skin, and sampled on eyes, teeth and tongue.
 #pragma once
 
 #include <map>
@@ -20,22 +20,22 @@ class OwnTextures {
     OwnTextures(const OwnTextures&) = delete;
     OwnTextures& operator=(const OwnTextures&) = delete;
 
-    /// For the programs that take their colour from own_colour_chunk().
+    /// Binds the texture of a batch for programs that use own_colour_chunk().
     void bind(const Batch& batch) const;
 
-    /// Colours of the skin over what the bound framebuffer shows, as square roots; alpha stays. `painted` are the triangles that
-    /// the map of the paint shows, see SceneBuffers::paintable_triangles().
+    /// Paints the colours of the skin over the bound framebuffer, as square roots of linear light; alpha is kept. `painted`:
+    /// triangles on the paint map, see SceneBuffers::paintable_triangles().
     void paint_skin(const Scene& scene, const Vec3& paint_centre,
                     const std::vector<unsigned>& painted) const;
 
   private:
-    /// Texture coordinates of a batch's triangles as linear functions of the rest position: right across seams, where a vertex
-    /// has several.
+    /// Texture coordinates of a batch's triangles as linear functions of the rest position. This is correct across seams, where a
+    /// vertex has several coordinates.
     struct Places {
         GLuint buffer = 0, texture = 0;
     };
     std::vector<GLuint> textures_;
-    std::map<int, Places> places_;  ///< by the batch's first index
+    std::map<int, Places> places_;  ///< key: first index of the batch
 };
 
 }  // namespace risorius::render

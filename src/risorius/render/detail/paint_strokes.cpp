@@ -13,12 +13,12 @@
 namespace risorius::render {
 namespace {
 
-constexpr double kMapPerMetre =
-    2.5;  ///< length on the map of a metre on a sphere of 0.1 m at its centre
+/// Length on the map per metre on a sphere of 0.1 m radius, at the centre of the map
+constexpr double kMapPerMetre = 2.5;
 
 class StrokePad {
   public:
-    /// A tapering quad from root to tip on the map.
+    /// Adds a tapering quad from root to tip on the map.
     void add(const Vec2& root, const Vec2& tip, double half_width, const Vec3& linear,
              double opacity) {
         const Vec2 along = tip - root;
@@ -44,7 +44,7 @@ class StrokePad {
     std::vector<StrokeVertex> vertices_;
 };
 
-/// The ground the hairs of a brow stand in: their shadows and the finest among them.
+/// The ground of a brow: shadows of its hairs and the finest hairs.
 void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
           RandomSequence& random, StrokePad& pad) {
     if (line.size() < 3) return;
@@ -58,11 +58,12 @@ void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
     }
 }
 
-/// Cropped hair beyond the hairline, lying away from the whorl at the crown.
+/// Cropped hair beyond the hairline, combed away from the whorl at the crown.
 void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const EarMask& ears,
            RandomSequence& random, StrokePad& pad) {
     if (scene.appearance.scalp_hair <= 0 || plan.hairline[0] > 1) return;
-    // Evenly spread by the sequence of the plastic number (Roberts 2018): chance alone leaves bald spots and clots.
+    // Roots follow the low-discrepancy sequence of the plastic number (Roberts 2018); plain random points leave bald spots and
+    // clusters.
     constexpr int kHairs = 170000;
     constexpr double kPlastic = 1.32471795724474602596;
     const Vec3 hair = linear_from_srgb(hair_tone_at(scene.appearance));
@@ -76,7 +77,7 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
         const double keep = random.next(), length_draw = random.next(), bend = random.next(),
                      shade = random.next();
         const Vec2 root = Vec2(0.5, 0.5) + radius * Vec2(std::sin(turn), std::cos(turn));
-        // The line itself is ragged, and thins out over a centimetre.
+        // The hairline is ragged, and thins out over a centimetre.
         const double inside = (radius - hairline_radius(plan, root)) / 0.034;
         const double thick = std::clamp(inside + 0.22, 0.0, 1.0);
         if (keep > thick * thick * (3 - 2 * thick)) continue;
@@ -95,11 +96,11 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
     }
 }
 
-/// Short hairs of a beard, thickest under the chin, that grow downwards; none on the lips.
+/// Short hairs of a beard that grow downwards, thickest under the chin; none on the lips.
 void beard(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
            const std::vector<unsigned>& skin, RandomSequence& random, StrokePad& pad) {
     if (scene.appearance.beard <= 0 || plan.beard.empty()) return;
-    constexpr double kPerSquareMetre = 1.1e6;  // of a man's chin
+    constexpr double kPerSquareMetre = 1.1e6;  // on the chin of a man
     const Vec3 hair = linear_from_srgb(hair_tone_at(scene.appearance));
     const auto at = [&](std::size_t i) -> Vec3 {
         return scene.rest.row(static_cast<Eigen::Index>(skin[i])).transpose();
@@ -135,7 +136,7 @@ void freckles(const Scene& scene, const SkinPlan& plan, RandomSequence& random, 
         linear_from_srgb(scene.appearance.skin_tone).cwiseProduct(Vec3(0.55, 0.36, 0.26));
     const bool hairless = plan.hairline[0] > 1;
     for (int i = 0; i < count; ++i) {
-        // Densest across nose and cheeks, a little below the map's centre
+        // Freckles are densest across nose and cheeks, a little below the centre of the map.
         const double turn = 2 * std::numbers::pi * random.next();
         const double r = std::sqrt(-2 * std::log(1 - random.next()));
         const double size = random.next(), strength = random.next();
@@ -193,14 +194,14 @@ BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& centre, Rando
     const auto map = [&](std::size_t k) { return paint_place(line[k], centre); };
     const std::size_t end = line.size() - 1;
     const double mirrored = map(end).x() < map(0).x() ? -1 : 1;
-    // Dense over the first two thirds, then ever sparser: the tail ends in single hairs.
+    // Dense over the first two thirds, then increasingly sparse: the tail ends in single hairs.
     const double draw = std::pow(random.next(), 0.85);
     const double t = draw < 0.62 ? draw : draw - 0.40 * (draw - 0.62) * random.next();
     const double at = t * static_cast<double>(end);
     const auto k = std::min(static_cast<std::size_t>(at), end - 1);
     const Vec2 axis = (map(k + 1) - map(k)).normalized();
     const Vec2 up(-axis.y() * mirrored, axis.x() * mirrored);
-    // Full in the middle, thin at the tail, ragged at the head
+    // Full in the middle, thin at the tail, ragged at the head of the brow.
     const double half_band =
         0.0050 * (0.50 + 0.50 * std::min(1.0, t / 0.22)) * (1.0 - 0.58 * std::pow(t, 1.6));
     const double offset = random.next() + random.next() - 1.0;
@@ -240,7 +241,7 @@ std::vector<StrokeVertex> plan_lip_ground(const Scene& scene, const SkinPlan& pl
         middle += p / static_cast<double>(plan.lip_outline.size());
     const auto corner = [&](const Vec3& p) {
         const Vec2 place = paint_place(p, centre);
-        // The middle of a stroke's shaft, where it is opaque
+        // The fan uses the middle of a stroke's shaft, where it is opaque.
         fan.push_back({{static_cast<float>(place.x()), static_cast<float>(place.y())},
                        {0.5F, 0.0F},
                        {tone.x(), tone.y(), tone.z(), 1.0F}});
@@ -275,7 +276,7 @@ void draw_strokes(const std::vector<StrokeVertex>& strokes) {
     const GlProgram program("strokes", stroke_vertex_shader(), stroke_fragment_shader());
     program.use();
     glEnable(GL_BLEND);
-    // Colour goes over what is there; its oil is dulled.
+    // Colour is blended over the paint; the oil below it is reduced.
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(strokes.size()));
     glDisable(GL_BLEND);

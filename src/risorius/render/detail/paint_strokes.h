@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Hairs and freckles as thin quads on the skin map.
+/// Hairs and freckles as thin quads on the paint map of the skin.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,16 @@
 
 namespace risorius::render {
 
-/// Where a hair of a brow grows on the map and which way: upright at the nose, then more and more along the brow; the upper rows
-/// lean down, the lower ones up.
+/// The root of a brow hair on the map, and its direction: upright at the nose, then increasingly along the brow. Hairs of the
+/// upper rows lean down, those of the lower rows up.
 struct BrowHair {
-    Vec2 root, step;  ///< step: part of the hair's way
+    Vec2 root, step;  ///< step: a part of the way along the hair
     double length_m = 0, density = 1;
 };
 BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& paint_centre,
                         RandomSequence& random);
 
-/// Cells of the map that ears cover.
+/// Cells of the map that the ears cover.
 class EarMask {
   public:
     EarMask(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
@@ -34,24 +34,24 @@ class EarMask {
     std::vector<bool> covered_;
 };
 
-/// Within the red of the lips or half a millimetre from it.
+/// Whether p lies within the red of the lips or half a millimetre from it.
 bool inside_lips(const SkinPlan& plan, const Vec3& p);
 
 struct StrokeVertex {
     float place[2];  ///< on the map
-    float local[2];  ///< along 0..1 from the root, across -1..1
+    float local[2];  ///< along the stroke from root 0 to tip 1, across -1..1
     float rgba[4];   ///< square root of linear colour, opacity
 };
 
-/// Six vertices per stroke. `skin` are the painted triangles: no hair is laid over those of ears.
+/// Six vertices per stroke. `skin`: the painted triangles; no hair is drawn over ears.
 std::vector<StrokeVertex> plan_strokes(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
                                        const std::vector<unsigned>& skin);
 
-/// The whole outline of the lips in their tone, as a fan.
+/// The area inside the outline of the lips in their tone, as a triangle fan.
 std::vector<StrokeVertex> plan_lip_ground(const Scene& scene, const SkinPlan& plan,
                                           const Vec3& centre);
 
-/// Blends them over the bound framebuffer.
+/// Blends the strokes over the bound framebuffer.
 void draw_strokes(const std::vector<StrokeVertex>& strokes);
 
 }  // namespace risorius::render

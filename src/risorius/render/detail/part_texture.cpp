@@ -21,7 +21,7 @@ std::string part_shader(Material material) {
     return mucosa_texture_shader(material == Material::kTongue);
 }
 
-/// Floating point colours, bound while it lives, and the vertex array that was bound before it.
+/// A framebuffer of floats that is bound during its lifetime; afterwards the previous vertex array is bound again.
 class FloatSquare {
   public:
     explicit FloatSquare(int side_px) {
@@ -68,7 +68,7 @@ Image unfold_part(const Scene& scene, const Materials& materials, Material mater
             surfaces.push_back(&surface);
             triangles.push_back(&surface.triangles);
         }
-    // The left eye comes last.
+    // The left eye is drawn last.
     std::stable_sort(surfaces.begin(), surfaces.end(),
                      [](const Surface* a, const Surface* b) { return a->eye > b->eye; });
     Image image(side_px, side_px);
@@ -108,7 +108,7 @@ Image unfold_part(const Scene& scene, const Materials& materials, Material mater
         glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners.size()));
     }
 
-    // Row by row from below
+    // Rows from the bottom
     std::vector<float> row(4 * static_cast<std::size_t>(side_px));
     for (int y = 0; y < side_px; ++y) {
         glReadPixels(0, y, side_px, 1, GL_RGBA, GL_FLOAT, row.data());

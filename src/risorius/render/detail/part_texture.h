@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Textures of eyes, teeth and other moist parts: their materials, drawn on their texture coordinates.
+/// Textures of eyes, teeth and other moist parts: their materials rendered onto their texture coordinates.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,9 @@
 
 namespace risorius::render {
 
-/// A square picture in sRGB, alpha 0 where no surface of the material with texture coordinates lies: kEye, kTeeth, kGums, kTongue or
-/// kMouth. Where both eyes lie one has the left. `crown_height` as OffscreenView::part_texture() has it. The context must be current.
+/// A square picture in sRGB of kEye, kTeeth, kGums, kTongue or kMouth. Alpha is 0 where no surface of the material lies. Where
+/// both eyes use the same texture coordinates, the left eye is drawn. `crown_height`: see OffscreenView::part_texture(). The
+/// context must be current.
 Image unfold_part(const Scene& scene, const Materials& materials, Material material, int side_px,
                   const std::vector<double>& crown_height);
 

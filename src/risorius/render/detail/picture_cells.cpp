@@ -6,10 +6,11 @@
 namespace risorius::render {
 namespace {
 
-/// Of the distance between neighbours, in the layer's 256ths of 256 mm: below this a sample finds its own place near enough.
+/// Step between the distances of neighbours, in units of 1 mm (256 units per turn of 256 mm). Below it, the nearest place is good
+/// enough for a sample.
 constexpr int kMinStep = 3;
 
-/// Without branches, for many places at once; distances turn over at 256.
+/// Branch-free difference of two distances, for vectorization; distances wrap around at 256.
 std::uint8_t step(std::uint8_t a, std::uint8_t b) {
     constexpr unsigned kMax = kMinStep - 1;
     const auto apart = static_cast<std::uint8_t>(a - b + kMax);
@@ -33,7 +34,7 @@ PictureCells::Range PictureCells::range(const ClipBox& box) const {
         const float at = (0.5F * clip + 0.5F) * static_cast<float>(side_px) / kSide_px;
         return static_cast<int>(std::floor(std::clamp(at, -1.0F, static_cast<float>(cells))));
     };
-    // A hundredth of a pixel covers rounding.
+    // A hundredth of a pixel allows for rounding.
     const float x = 0.02F / static_cast<float>(width_px_),
                 y = 0.02F / static_cast<float>(height_px_);
     return {std::max(cell(box.left - x, width_px_, columns_), 0),
@@ -77,7 +78,7 @@ void PictureCells::find_steps(const std::vector<std::uint8_t>& rgba, int shaded)
     const auto places = [&](int px) { return static_cast<std::size_t>(px * shaded); };
     const std::size_t width = places(box.right - box.left), height = places(box.high - box.low),
                       side = places(kSide_px);
-    // Distances, with the outermost ones repeated around them
+    // The distances, padded by repeating the border.
     const std::size_t stride = width + 2;
     away_.resize(stride * (height + 2));
     for (std::size_t y = 0; y < height + 2; ++y) {

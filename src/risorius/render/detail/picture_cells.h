@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Which cells of a tile need samples of their own. Where a cell shows only smooth skin, the skin layer is the picture already; where nothing
-/// was drawn, the background is.
+/// Classifies the cells of a tile. Where a cell shows only smooth skin, the skin layer already is the picture; where nothing was
+/// drawn, the background is. The other cells need samples of their own.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 
 namespace risorius::render {
 
-/// Where something lies in clip space over w, -1..1 from the lower left corner.
+/// A bounding box in clip space after division by w, -1..1 from the lower left corner.
 struct ClipBox {
     float left = 1e9F, right = -1e9F, low = 1e9F, high = -1e9F;
-    bool behind = false;  ///< part of it lies behind the camera, so that it may be anywhere
+    bool behind = false;  ///< part of it lies behind the camera, so its position is unknown
 
     void add(float x, float y, float w) {
         left = std::min(left, x);
@@ -40,23 +40,24 @@ class PictureCells {
   public:
     static constexpr int kSide_px = 4;
 
-    /// All are empty.
+    /// Starts a tile; all cells are empty.
     void begin(int width_px, int height_px);
 
-    /// Skin lies here, and has been shaded.
+    /// Skin that has been shaded lies here.
     void touch(const ClipBox& box) { add(box, kTouched); }
-    /// Something lies here that is drawn in samples.
+    /// Something that is drawn in samples lies here.
     void mark(const ClipBox& box) { add(box, kTouched | kSampled); }
     void mark_all() { std::fill(cells_.begin(), cells_.end(), kTouched | kSampled); }
 
-    /// Around all that was touched
+    /// Bounding box of all touched cells.
     PixelBox touched() const;
 
-    /// Of what was touched, only what is skin all over, without a step in its distance, can do without samples. `rgba`: the skin
-    /// layer, `shaded` places per pixel and side, rows from the bottom, with the distance in alpha (see shader_lookup.cpp).
+    /// Marks cells for sampling: of the touched cells, only those that are covered by skin without a step in distance need no
+    /// samples. `rgba`: the skin layer, `shaded` x `shaded` places per pixel, rows from the bottom, with the distance in alpha
+    /// (see shader_lookup.cpp).
     void find_steps(const std::vector<std::uint8_t>& rgba, int shaded);
 
-    /// Whether the box reaches into a cell that needs samples.
+    /// Whether the box overlaps a cell that needs samples.
     bool needs_samples(const ClipBox& box) const;
 
     enum class Kind { kEmpty, kSkin, kSampled };

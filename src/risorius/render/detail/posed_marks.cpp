@@ -9,7 +9,7 @@
 namespace risorius::render {
 namespace {
 
-// Of a head without lip landmarks: how far a full opening of the jaw parts the lips, and how wide the mouth is.
+// For a head without landmarks of the lips: the gap of the lips at full opening of the jaw, and the width of the mouth.
 constexpr double kFullGap_m = 0.035;
 constexpr double kMouthWidth_m = 0.050;
 
@@ -59,7 +59,7 @@ PosedMarks::PosedMarks(const Scene& scene) {
     if (stos_ >= 0 && stoi_ >= 0)
         rest_gap_m_ = (scene.rest.row(stos_) - scene.rest.row(stoi_)).norm();
 
-    // Where the mouth is when nothing marks it: the foremost point of the teeth.
+    // Without landmarks, the mouth is at the foremost point of the teeth.
     for (const Surface& surface : scene.surfaces)
         if (surface.material == Material::kTeeth)
             for (Eigen::Index i = 0; i < surface.triangles.size(); ++i) {
@@ -127,7 +127,7 @@ std::vector<float> PosedMarks::inside_mouth(const Scene& scene,
         const Vec3 p = scene.rest.row(static_cast<Eigen::Index>(v)).transpose();
         const double across = (p.x() - middle) / half_width;
         const double behind = lips.z() - corner_depth * across * across - p.z();
-        // The nostrils lie above the front of the mouth and are as dark.
+        // The nostrils are excluded: they are as dark, and lie above the front of the mouth.
         const bool in_box = std::abs(across) < 1.6 && std::abs(p.y() - lips.y()) < 0.045 &&
                             (p.y() < roof || behind > 0.032);
         if (in_box)

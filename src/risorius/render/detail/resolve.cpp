@@ -16,7 +16,7 @@ double srgb_of_linear(double l) {
     return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
 }
 
-/// Whether the n x n samples from `first` on are the same, byte for byte.
+/// Whether the n x n samples starting at `first` are equal, byte for byte.
 bool is_even(const std::uint8_t* first, std::size_t n, std::size_t sample_row) {
     std::uint32_t one = 0;
     std::memcpy(&one, first, 4);
@@ -94,7 +94,7 @@ void Resolve::row(const std::uint8_t* samples, std::size_t n, std::size_t sample
                                               linear_of_byte_[background_[1]],
                                               linear_of_byte_[background_[2]]};
     for (std::size_t x = 0; x < pixels; ++x, out += 4) {
-        // Most pixels have equal samples, which are their own mean.
+        // Most pixels have equal samples; their mean is the sample itself.
         if (const std::uint8_t* first = samples + x * n * 4;
             (n == 1 || is_even(first, n, sample_row)) && (first[3] == 255 || is_empty(first))) {
             std::memcpy(out, first[3] == 255 ? first : nothing_.data(), 4);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// From samples to pixels: averages N x N samples in linear light over the background.
+/// Averages N x N samples per pixel in linear light over the background.
 #pragma once
 
 #include <array>
@@ -12,30 +12,31 @@
 
 namespace risorius::render {
 
-/// Part of a picture, px from its top left corner.
+/// A rectangle of a picture, px from its top left corner.
 struct Tile {
     int x, y, width, height;
 };
 
-/// Mean in linear light of pictures of one size.
+/// Mean of pictures of one size, in linear light.
 Image mean_of(const std::vector<Image>& pictures);
 
 class Resolve {
   public:
     explicit Resolve(const Background& background);
 
-    /// `samples`: rows from the bottom, sRGB colour already weighted by its alpha (in linear light), supersampling times as wide and high as the tile of
-    /// the picture they cover.
+    /// Writes one tile. `samples`: rows from the bottom, sRGB colour premultiplied by alpha (in linear light), `supersampling`
+    /// times as wide and high as the tile.
     void operator()(const std::vector<std::uint8_t>& samples, int supersampling, const Tile& tile,
                     Image& image) const;
 
-    /// One row of `count` pixels, `samples` the lowest one's first sample of rows that are `sample_row` bytes apart.
+    /// Resolves one row of `count` pixels. `samples`: the first sample of the lowest row of samples; rows are `sample_row` bytes
+    /// apart.
     void row(const std::uint8_t* samples, std::size_t supersampling, std::size_t sample_row,
              std::size_t count, std::uint8_t* out) const;
-    /// The same of samples that all cover the background, whatever their alpha says.
+    /// The same for opaque samples; their alpha is ignored.
     void opaque_row(const std::uint8_t* samples, std::size_t supersampling, std::size_t sample_row,
                     std::size_t count, std::uint8_t* out) const;
-    /// Where there are none
+    /// A row without samples: only background.
     void empty_row(std::size_t count, std::uint8_t* out) const;
 
   private:

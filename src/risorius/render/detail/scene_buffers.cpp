@@ -37,8 +37,8 @@ void attribute(VertexAttribute index, GLint size, int floats_per_vertex, int off
         reinterpret_cast<const void*>(static_cast<std::size_t>(offset) * sizeof(float)));
 }
 
-/// How much of its pores skin shows whose map is stretched where it faces away from the middle of the head, and towards the
-/// back of the head everywhere.
+/// How strongly a vertex shows its pores. They fade where the skin faces away from the middle of the head, because the map is
+/// stretched there, and towards the back of the head.
 std::vector<float> pores_shown(const Points& rest, const std::vector<float>& normals,
                                const Vec3& paint_centre) {
     const auto smooth = [](double from, double to, double at) {
@@ -66,7 +66,8 @@ SceneBuffers::SceneBuffers(const Scene& scene, const Vec3& camera, const Vec3& p
                            const Coarseness& coarseness)
     : smooth_(scene.rest, triangle_lists(scene)),
       triangles_(scene, camera, paint_centre, coarseness) {
-    // The driver runs a vertex again for each of a few hundred triangles that use it, unless their numbers are near each other.
+    // The driver caches shaded vertices for a few hundred triangles, but only if the numbers of their vertices are close
+    // together.
     const auto vertices = static_cast<std::size_t>(scene.rest.rows());
     constexpr unsigned kNone = ~0U;
     unsigned used = 0;

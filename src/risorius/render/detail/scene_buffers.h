@@ -28,21 +28,21 @@ class SceneBuffers {
     SceneBuffers& operator=(const SceneBuffers&) = delete;
 
     void bind() const { glBindVertexArray(array_); }
-    /// `fold_depth` has no rows when nothing is folded; it is not read when the scene has no folds.
+    /// Uploads positions. `fold_depth`: no rows when nothing is folded; ignored when the scene has no folds.
     void upload(const Points& positions, const Points& fold_depth = {});
     void set_colours(const std::vector<float>& rgb);  ///< linear, 3 per vertex
     void set_occlusion(const std::vector<float>& sky_seen, const std::vector<float>& inside_mouth);
 
-    /// As in triangle_choice.h, of where things are now.
+    /// These select triangles for the current positions, see triangle_choice.h.
     void choose(const Eigen::Matrix4f& clip_from_world, bool whole);
     void choose_casters(const Eigen::Matrix4f& light_from_world,
                         const Eigen::Matrix4f* clip_from_world);
     void leave_out_unseen(SkinLayer& skin, PictureCells& cells,
                           const std::function<void(PictureCells&)>& mark_others);
-    /// What was chosen, of which batches() are the whole.
+    /// Draws the selected triangles of a batch; batches() lists all of them.
     void draw(const Batch& batch, Purpose purpose = Purpose::kSeen) const;
-    void draw_smooth(const Batch& batch) const;    ///< without wrinkles
-    void draw_wrinkled(const Batch& batch) const;  ///< and with them
+    void draw_smooth(const Batch& batch) const;    ///< the selected triangles without wrinkles
+    void draw_wrinkled(const Batch& batch) const;  ///< the selected triangles with wrinkles
     bool has_wrinkled(const Batch& batch) const {
         return choice_.range(batch, Purpose::kSeen).wrinkled > 0;
     }
@@ -52,25 +52,26 @@ class SceneBuffers {
     int skin_index_count() const { return triangles_.skin_index_count(); }
     const std::vector<float>& normals() const { return normals_; }
 
-    /// Skin triangles outside the mouth that the map of the paint shows unbroken.
+    /// Skin triangles outside the mouth that lie on the paint map in one piece.
     std::vector<unsigned> paintable_triangles(const std::vector<float>& inside_mouth) const;
-    /// Vertices of the scene as the vertex array numbers them.
+    /// Numbers in the vertex array of vertices of the scene.
     std::vector<unsigned> elements(const std::vector<unsigned>& vertices) const;
 
   private:
-    /// Positions and normals as they are now, not uploaded yet.
+    /// Computes positions and normals without uploading them.
     void place(const Points& positions);
     void upload_choice(Purpose purpose);
     void draw(const Batch& batch, Purpose purpose, int first, int count) const;
 
     SmoothNormals smooth_;
     SceneTriangles triangles_;
-    std::vector<unsigned> number_;  ///< of each vertex in the vertex array, in the order of drawing
+    /// Number of each scene vertex in the vertex array, in drawing order
+    std::vector<unsigned> number_;
     std::vector<float> paint_;
     std::vector<LashPlace> lashes_;
     std::vector<float> curvature_, pores_, occlusion_;
     std::vector<float> positions_, normals_, moving_, fold_depth_;
-    std::vector<std::uint8_t> wrinkled_;  ///< per vertex, now
+    std::vector<std::uint8_t> wrinkled_;  ///< per vertex, in the current pose
     TriangleChoice choice_{triangles_, positions_, wrinkled_};
     std::array<GLuint, kPurposes> chosen_elements_{0, 0};
     GLuint array_ = 0, moving_buffer_ = 0, fixed_buffer_ = 0, occlusion_buffer_ = 0,

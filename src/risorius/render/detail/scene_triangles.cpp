@@ -8,7 +8,7 @@
 namespace risorius::render {
 namespace {
 
-// Skin first, as it hides most of the rest; what is blended last.
+// The skin comes first because it hides most of the rest. Blended materials come last.
 constexpr Material kDrawOrder[] = {Material::kSkin,   Material::kEye,    Material::kTeeth,
                                    Material::kTongue, Material::kGums,   Material::kMouth,
                                    Material::kMatte,  Material::kLashes, Material::kCornea};
@@ -17,7 +17,7 @@ constexpr Material kDrawOrder[] = {Material::kSkin,   Material::kEye,    Materia
 
 SceneTriangles::SceneTriangles(const Scene& scene, const Vec3& camera, const Vec3& paint_centre,
                                const Coarseness& coarseness) {
-    // Batches: near triangles first, so that hidden ones fail the depth test before they are shaded.
+    // Near triangles come first in each batch, so that hidden ones fail the depth test before they are shaded.
     for (const Material material : kDrawOrder)
         for (const int eye : {-1, 0, 1})
             for (int texture = -1; texture < static_cast<int>(scene.textures.size()); ++texture)
@@ -39,7 +39,7 @@ void SceneTriangles::add_batch(const Scene& scene, Material material, int eye, i
     }
     if (faces.empty()) return;
     bool cull = false;
-    // Where poses bend the skin, a second time and by less; wrinkles need all of it.
+    // Where poses bend the skin, a second simplification with a smaller error is used. Wrinkled skin is not simplified.
     const std::function<bool(const Face&)> bent = much_moved(scene),
                                            folds = may_fold(scene, coarseness.keeps_folds);
     const auto stays_when_moved = [&](const Face& face) { return !bent(face) || folds(face); };
@@ -62,7 +62,8 @@ void SceneTriangles::add_batch(const Scene& scene, Material material, int eye, i
         wind_outwards(scene.rest, faces);
         cull = true;
     }
-    // An eye turns as one, and nothing of it stays as it is. What has a texture is looked up by the number of its triangle.
+    // An eye is rigid, so all of it may be simplified. A textured eye is not simplified, because its texture coordinates are
+    // looked up by triangle number.
     coarse_eyes_.push_back(of_eye && texture < 0
                                ? coarse(coarseness.eyes_m, [](const Face&) { return false; })
                                : std::vector<unsigned>());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Triangles of a scene by material, each ordered front to back; for skin and eyes also simplified ones for small pictures.
+/// Triangles of a scene by material, each sorted from front to back, with simplified versions of skin and eyes for small
+/// pictures.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,29 +18,30 @@ namespace risorius::render {
 struct Batch {
     Material material;
     int eye;
-    int texture;  ///< of the scene, or -1; the skin has its own in its paint
+    /// Index of a texture of the scene, or -1; the texture of the skin is part of its paint map
+    int texture;
     int first_index;
     int index_count;
-    bool cull_back;  ///< counter-clockwise from outside, so what turns away is hidden
+    bool cull_back;  ///< wound counter-clockwise from outside, so back faces are hidden
 };
 
-/// What a choice of triangles is for.
+/// The purpose of a selection of triangles.
 enum class Purpose { kSeen, kShadow };
 constexpr std::size_t kPurposes = 2;
 
 class SceneTriangles {
   public:
-    /// The triangles must name vertices that there are.
+    /// All vertex indices of the scene's triangles must be in range.
     SceneTriangles(const Scene& scene, const Vec3& camera, const Vec3& paint_centre,
                    const Coarseness& coarseness);
 
     const std::vector<Batch>& batches() const { return batches_; }
-    /// Vertices of the scene, three for each triangle.
+    /// Vertex indices of the scene, three per triangle.
     const std::vector<unsigned>& indices() const { return indices_; }
     int skin_index_count() const;
-    /// Corners of a batch's triangles, three each: fewer ones where it has them for the purpose, unless `whole`.
+    /// Corners of a batch's triangles, three each. Returns the simplified ones if there are any for the purpose, unless `whole`.
     std::span<const unsigned> corners_of(const Batch& batch, Purpose purpose, bool whole) const;
-    /// The fewer ones of the skin; none: as it is.
+    /// The simplified skin; empty: not simplified.
     const std::vector<unsigned>& coarse_skin(Purpose purpose) const {
         return coarse_skin_[static_cast<std::size_t>(purpose)];
     }
@@ -51,7 +53,7 @@ class SceneTriangles {
     std::vector<Batch> batches_;
     std::vector<unsigned> indices_;
     std::array<std::vector<unsigned>, kPurposes> coarse_skin_;
-    std::vector<std::vector<unsigned>> coarse_eyes_;  ///< of each batch; none: as it is
+    std::vector<std::vector<unsigned>> coarse_eyes_;  ///< per batch; empty: not simplified
 };
 
 }  // namespace risorius::render

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GLSL of bone, and of skin as clear as glass over it.
+// GLSL of bone, and of glassy skin over it.
 #include "risorius/render/detail/shaders.h"
 
 namespace risorius::render {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Writes uniforms that never change into the program's source as constants. llvmpipe fetches a uniform again for every pixel, while a
-/// constant is part of an instruction.
+/// Replaces uniforms that never change by constants in the source of a program. llvmpipe fetches a uniform again for every pixel,
+/// while a constant is part of an instruction.
 #pragma once
 
 #include <map>
@@ -20,10 +20,11 @@ class ShaderConstants {
     void set(const std::string& name, const Vec3& value);
     void set(const std::string& name, const Eigen::Vector4f& value);
     void set(const std::string& name, const Mat3& value);
-    /// Text that goes before all others of the source, such as constants in place of a part of a uniform block.
+    /// Text that is put in front of the source, for instance constants that replace a part of a uniform block.
     void set_prelude(std::string text) { prelude_ = std::move(text); }
 
-    /// GLSL, whose first line is its version, with those of its uniforms that have been set as constants.
+    /// Returns the GLSL source with the uniforms that have been set replaced by constants. The first line of the source is its
+    /// version.
     std::string in(std::string source) const;
 
   private:
@@ -31,7 +32,7 @@ class ShaderConstants {
     std::map<std::string, std::string> value_of_declaration_;  ///< "vec3 albedo" to "vec3(...)"
 };
 
-/// As GLSL has it: "vec4(1.0, 0.5, ...)", with as many digits as a float needs.
+/// A GLSL literal such as "vec4(1.0, 0.5, ...)", with as many digits as a float needs.
 std::string glsl(const std::string& type, std::span<const float> numbers);
 
 }  // namespace risorius::render

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// GLSL of the eye: sclera with veins, limbus, refracted iris and pupil, wet highlight, shade of the lids.
+// GLSL of the eye: sclera with veins, limbus, refracted iris and pupil, wet highlight, shadow of the lids.
 #include "risorius/render/detail/shaders.h"
 
 namespace risorius::render {
 namespace {
 
-// Pattern from the rest position in the frame of the eye (z forward), and how the cornea lies before it.
+// The pattern is computed from the rest position in the frame of the eye (z forward), together with the shape of the cornea.
 constexpr const char* kEyeColour = R"(
 uniform mat3 eye_from_rest;
 uniform vec3 centre;        // rest, m
@@ -102,7 +102,7 @@ vec3 wet_gloss(vec3 n, vec3 v, float open) {
 }
 )";
 
-// Without a cornea of its own the surface is taken for it: the view ray is refracted there and meets the iris plane behind.
+// An eye without a separate cornea: the surface acts as the cornea, which refracts the view ray onto the iris plane behind it.
 constexpr const char* kEye = R"(
 in vec3 position;
 in vec3 normal;
@@ -189,7 +189,7 @@ void main() {
 }
 )";
 
-// Of a still picture: as one sees it from straight ahead, evenly lit.
+// Texture of an eye as seen from straight ahead in even light.
 constexpr const char* kEyeTexture = R"(
 void main() {
     vec3 q = eye_from_rest * (rest - centre);

@@ -5,8 +5,8 @@
 namespace risorius::render {
 namespace {
 
-// Hairs are cut out of the ribbon: two rows with different spacing, each hair with its own place, slant and length, thinning
-// to its tip.
+// Hairs are cut out of the ribbon in two rows of different spacing. Each hair has its own position, slant and length, and thins
+// out to its tip.
 constexpr const char* kLash = R"(
 in vec3 position;
 in vec3 normal;

@@ -133,7 +133,7 @@ float noise(vec3 p) {
 }
 )";
 
-// What the wrinkles of the skin need, see shader_skin.cpp
+// Inputs of the wrinkles of the skin, see shader_skin.cpp
 constexpr const char* kFoldsVertex = R"(
 layout(location = 5) in vec3 in_fold_phase;
 layout(location = 6) in vec3 in_fold_depth;
@@ -146,7 +146,7 @@ void pass_folds() {
 )";
 constexpr const char* kNoFoldsVertex = "void pass_folds() {}\n";
 
-// What the key lamp lights, as coarse as the vertices: for drafts.
+// Light of the key lamp per vertex, for drafts.
 constexpr const char* kKeyVertex = R"(
 out vec3 key_light;    // of a white surface
 out float key_gloss;   // and what of a lamp of 1 it mirrors

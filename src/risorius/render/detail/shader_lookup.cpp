@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GLSL of skin that was shaded elsewhere, once per pixel: see skin_layer.h.
+// GLSL of skin that was shaded separately, once per pixel: see skin_layer.h.
 #include "risorius/render/detail/shaders.h"
 
 namespace risorius::render {
@@ -14,7 +14,7 @@ void main() {
 }
 )";
 
-// Alpha of the layer is the distance from the camera, turning once every 256 mm, or 0 where there is no skin.
+// The alpha of the layer is the distance from the camera, which wraps around every 256 mm, or 0 where there is no skin.
 constexpr const char* kLookup = R"(#version 450 core
 layout(binding = 7) uniform usampler2D skin_layer;
 uniform float shaded_per_sample;
@@ -52,7 +52,7 @@ void main() {
 }
 )";
 
-// As glClear would do it
+// The same result as glClear.
 constexpr const char* kClearVertex = R"(#version 450 core
 layout(location = 0) in vec2 in_place;
 void main() { gl_Position = vec4(in_place, 1.0, 1.0); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GLSL of teeth, gums, tongue and mouth wall, lit through the lips, and of cards that measure the light.
+// GLSL of teeth, gums, tongue and mouth wall, lit through the lips, and of cards for light measurements.
 #include "risorius/render/detail/shaders.h"
 
 namespace risorius::render {
@@ -36,7 +36,7 @@ void main() {
 }
 )";
 
-// The back of the tongue: a furrow in the middle, papillae of half a millimetre with redder ones among them, and a pale coat.
+// The back of the tongue: a furrow in the middle, papillae of half a millimetre with redder ones among them, and a pale coating.
 constexpr const char* kTongueBack = R"(
 const float kWet = 1.8;
 vec3 back_of(vec3 n, vec3 tint, inout vec3 m) {
@@ -79,8 +79,8 @@ void main() {
 }
 )";
 
-// Enamel is a clear coat over dentine, which shows yellower at the neck, where the crown is thickest, and ends before the edge,
-// which is grey with the darkness behind it.
+// Enamel is a clear coat over dentine. Dentine shows yellower at the neck, where the crown is thickest, and ends before the edge,
+// which is grey because the dark mouth shows through it.
 constexpr const char* kTeethTexture = R"(
 const vec3 kNeck = vec3(0.93, 0.83, 0.69);
 const vec3 kEdge = vec3(0.78, 0.83, 0.91);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GLSL of muscles seen through the skin: colour of their activation, bundles of fibres along them, pale tendons.
+// GLSL of muscles seen through the skin: the colour of their activation, bundles of fibres, pale tendons.
 #include "risorius/render/detail/shaders.h"
 
 namespace risorius::render {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GLSL of experiment-like objects: transparent two-sided surface, flat wires, balls; light fixed to the camera.
+// GLSL of ObjectView: transparent two-sided surface, flat wires, balls; the light is fixed to the camera.
 #include "risorius/render/detail/shaders.h"
 
 namespace risorius::render {

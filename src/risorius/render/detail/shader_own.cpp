@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GLSL of colours that come from the mesh's own pictures, and of making such pictures.
+// GLSL of colours from the mesh's own textures, and of the drawing of such textures.
 #include "risorius/render/detail/shader_paint.h"
 #include "risorius/render/detail/shaders.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Programs that paint the skin map once: the skin itself, and strokes over it.
+/// Programs that paint the skin map once: the skin, and strokes over it.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace risorius::render {
 
 std::string paint_vertex_shader();
 std::string paint_fragment_shader();
-std::string own_skin_vertex_shader();  ///< of the mesh's own pictures, over the paint
+std::string own_skin_vertex_shader();  ///< for the mesh's own textures, over the paint
 std::string own_skin_shader();
 std::string stroke_vertex_shader();
 std::string stroke_fragment_shader();

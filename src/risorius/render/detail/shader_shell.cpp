@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GLSL of hair as shells: which hair passes through a shell where, and how it is lit.
+// GLSL of hair as shells: where a hair passes through a shell, and how it is lit.
 #include "risorius/render/detail/shaders.h"
 
 namespace risorius::render {

@@ -5,8 +5,8 @@
 namespace risorius::render {
 namespace {
 
-// Light scattered under the skin (see scattered()) with a red edge of the shadow; gloss from two lobes, a broad one of the skin
-// and a narrow one of its oil, on a normal bent by pores. What is soft comes from the vertices.
+// Light scattered under the skin (see scattered()) with a red edge of the shadow. The gloss has two lobes, a broad one of the
+// skin and a narrow one of its oil, on a normal bent by pores. Soft light comes from the vertices.
 constexpr const char* kInputs = R"(
 in vec3 position;
 in vec3 normal;
@@ -61,7 +61,7 @@ void main() {
 }
 )";
 
-// The paint lies almost along world x and y on the face, which is frame enough for pores. Lips have none.
+// On the face, the axes of the paint map lie almost along world x and y, which is accurate enough for pores. Lips have no pores.
 constexpr const char* kPores = R"(
 layout(binding = 2) uniform sampler2D pore_map;    // slope
 vec3 bent_by_pores(vec3 n, float oil) {
@@ -71,9 +71,10 @@ vec3 bent_by_pores(vec3 n, float oil) {
 }
 )";
 constexpr const char* kNoPores = "vec3 bent_by_pores(vec3 n, float oil) { return n; }\n";
-// Wrinkles: height A d P(f) over the skin, P = sqrt(sin^2(pi f) + r^2) and d of each line as in face/skin/detail/wrinkles.cpp, so that
-// valleys are narrow and ridges round; with A < 0 ridges are narrow. The gradient of the phase over the drawn surface comes from its change between neighbouring samples
-// (Mikkelsen 2010, Bump Mapping Unparametrized Surfaces); folds finer than two samples fade out.
+// Wrinkles have the height A d P(f) over the skin, with P = sqrt(sin^2(pi f) + r^2) and d of each line as in
+// face/skin/detail/wrinkles.cpp: valleys are narrow and ridges round, and with A < 0 the ridges are narrow. The gradient of the
+// phase on the drawn surface comes from its change between neighbouring samples (Mikkelsen 2010, Bump Mapping Unparametrized
+// Surfaces). Wrinkles finer than two samples fade out.
 constexpr const char* kFolds = R"(
 in vec3 fold_phase;
 in vec3 fold_depth;
@@ -106,7 +107,7 @@ const vec3 kValley = vec3(1.0);
 float fold(vec3 n, vec3 m) { return 1.0; }
 )";
 
-// What goes to alpha: that all is covered, or for those who look the skin up, how far away it is; 0 says that there is none.
+// Value of alpha: 1 for an opaque picture, or the distance for a layer that is looked up; 0 says that there is no skin.
 constexpr const char* kCovered = "float told() { return 1.0; }\n";
 constexpr const char* kAway = R"(
 float told() {
@@ -114,7 +115,7 @@ float told() {
 }
 )";
 
-// What drafts see: all but paint and shadow is as coarse as the vertices. The taps of a 2 x 2 block of pixels stand in a square.
+// Drafts: everything except paint and shadow is computed per vertex. The shadow taps of a 2 x 2 block of pixels form a square.
 constexpr const char* kDraft = R"(
 layout(binding = 0) uniform sampler2DShadow shadow_map;
 layout(binding = 1) uniform sampler2D paint_map;   // square root of albedo; a: oil
@@ -146,9 +147,9 @@ const float kGloss = 1.0;
 vec3 seen_through(vec3 skin, vec3 light, vec3 albedo, float oil, float edge, float open) { return skin; }
 )";
 
-// The nearest skin alone is a veil over the muscles, wherever these are: what would lie in front of it is seen through it
-// all the same, and what lies deep fades into the tissue between. The veil is thick at a slant, so that the face keeps its
-// shape, and on lips, brows and in folds, so that it keeps its features.
+// The nearest skin is a veil over the muscles, even over those that would lie in front of it; deep muscles fade into the tissue
+// between. The veil is thicker at a slant, which keeps the shape of the face, and on lips, brows and in folds, which keeps its
+// features.
 constexpr const char* kTranslucent = R"(
 const float kGloss = 0.6;
 layout(binding = 3) uniform sampler2D muscle_colour;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GLSL of the bowl about an eyeball: moist flesh in the dark.
+// GLSL of the bowl around an eyeball: moist flesh in the dark.
 #include "risorius/render/detail/shaders.h"
 
 namespace risorius::render {
@@ -16,7 +16,7 @@ void main() {
 }
 )";
 
-// Little light comes in between lid and eye, and that from flesh.
+// Little light enters between lid and eye, and what returns has been reflected by flesh.
 constexpr const char* kSocket = R"(
 in vec3 soft;
 out vec4 colour;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// GLSL of single hairs: lit all around, and with a highlight across them.
+// GLSL of single hairs: light from all around, and a highlight across them.
 #include "risorius/render/detail/shaders.h"
 
 namespace risorius::render {
 namespace {
 
-// Kajiya and Kay 1989, Rendering Fur with Three Dimensional Textures. Everything about a hair is as coarse as its vertices.
+// Kajiya and Kay 1989, Rendering Fur with Three Dimensional Textures. Everything is computed per vertex of a hair.
 constexpr const char* kHairVertex = R"(
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_along;

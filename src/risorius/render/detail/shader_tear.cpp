@@ -25,7 +25,7 @@ void main() {
 }
 )";
 
-// Water that stands concave turns some part of itself to every lamp in front: a thin bright line.
+// A concave water surface reflects every lamp in front of it somewhere: a thin bright line.
 constexpr const char* kTear = R"(
 in vec3 position;
 in vec3 normal;

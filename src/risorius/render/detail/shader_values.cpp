@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// GLSL of a skin coloured by a quantity: even light, so that colours can be read off their scale, with just enough shape to
-// tell where on the face one is.
+// GLSL of skin coloured by a quantity. The light is even, so that colours can be read off their scale, with just enough shading
+// to recognize the place on the face.
 #include "risorius/render/detail/shaders.h"
 
 namespace risorius::render {

@@ -12,8 +12,9 @@
 namespace risorius::render {
 namespace {
 
-constexpr int kLengthSide = 512;        ///< texels of the map of lengths
-constexpr double kShellGap_m = 0.0003;  ///< between shells, less than a hair's own slant shows
+constexpr int kLengthSide = 512;  ///< texels of the map of lengths
+/// Between shells; small enough that the slant of hairs hides the gaps
+constexpr double kShellGap_m = 0.0003;
 constexpr int kFewestShells = 8, kMaxShells = 40;
 
 double smooth(double from, double to, double x) {
@@ -21,7 +22,7 @@ double smooth(double from, double to, double x) {
     return t * t * (3 - 2 * t);
 }
 
-/// Share of its full length that hair has: of the scalp, and of the beard. By places of the paint.
+/// Length of the hair as a fraction of its full length, for scalp and beard, at places of the paint map.
 class Lengths {
   public:
     Lengths(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
@@ -38,7 +39,7 @@ class Lengths {
                         byte(smooth(-0.004, 0.060, radius - hairline_radius(plan, place)));
                 }
         if (scene.appearance.beard_length_mm <= 0) return;
-        // Beards grow in places in space: painted triangle by triangle
+        // The density of a beard is given by position in space, so it is painted triangle by triangle.
         for (std::size_t i = 0; i + 2 < skin.size(); i += 3) {
             std::array<Vec3, 3> p;
             double max = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Hair of some length on scalp and chin: many layers over the skin, with holes wherever no hair passes through them.
+/// Long hair on scalp and chin: many layers over the skin, transparent wherever no hair passes through them.
 ///
 /// Source: Lengyel et al. 2001, Real-Time Fur over Arbitrary Surfaces.
 #pragma once
@@ -18,7 +18,8 @@ namespace risorius::render {
 
 class ShellLayer {
   public:
-    /// `skin`: the painted triangles. Draws nothing when the appearance has no length of hair; `constants` of Lights. The context must be current.
+    /// `skin`: the painted triangles. `constants`: of Lights. Draws nothing when the appearance has no hair length. The context
+    /// must be current.
     ShellLayer(const Scene& scene, const SceneBuffers& buffers, const SkinPlan& plan,
                const Vec3& paint_centre, const std::vector<unsigned>& skin,
                ShaderConstants constants);
@@ -26,12 +27,12 @@ class ShellLayer {
     ShellLayer(const ShellLayer&) = delete;
     ShellLayer& operator=(const ShellLayer&) = delete;
 
-    /// With the scene's vertex array bound.
+    /// Draws the shells; the vertex array of the scene must be bound.
     void draw() const;
     bool empty() const { return !program_; }
 
   private:
-    std::unique_ptr<GlProgram> program_;  ///< none when there is nothing to draw
+    std::unique_ptr<GlProgram> program_;  ///< null when there is nothing to draw
     GLuint lengths_ = 0, elements_ = 0;
     int index_count_ = 0, shells_ = 0;
 };

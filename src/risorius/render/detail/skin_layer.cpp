@@ -24,7 +24,7 @@ SkinLayer::SkinLayer(int width_px, int height_px, int samples, int shaded,
                with_fraction(shaded, samples, lookup_shader())) {
     const int width = width_px * shaded, height = height_px * shaded;
 
-    // One store in two lights: sRGB to shade into, and its bytes, four at a time, to copy from
+    // One texture in two views: as sRGB to shade into, and as one integer per pixel to copy from.
     glGenTextures(1, &colour_);
     glBindTexture(GL_TEXTURE_2D, colour_);
     glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, width, height);
@@ -71,7 +71,7 @@ const FarthestSkin& SkinLayer::farthest(const ClipBox& box) {
     farthest_.depth.assign(
         static_cast<std::size_t>(farthest_.columns) * static_cast<std::size_t>(farthest_.rows),
         1.0F);
-    // Whole cells, and one more on each side for the pixels beside the box
+    // Whole cells, with one more on each side for the pixels beside the box
     const auto cell = [&](float clip, float cells, int by, int max) {
         const float at = (0.5F * std::clamp(clip, -1.0F, 1.0F) + 0.5F) * cells;
         return std::clamp(static_cast<int>(at) + by, 0, max);

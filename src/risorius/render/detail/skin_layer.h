@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The skin shaded once per pixel and looked up by the samples of finer surfaces: shading takes far longer than visibility, and the colour
-/// inside of a face changes little within a pixel.
+/// The skin shaded once per pixel and looked up by finer samples. Shading takes far longer than visibility, and the colour inside
+/// a face changes little within a pixel.
 ///
-/// Each sample takes the colour of its own pixel, or of the neighbour that lies nearest to it in depth, after Chajdas, McGuire
+/// Each sample takes the colour of its own pixel, or of the neighbour nearest to it in depth, after Chajdas, McGuire
 /// and Luebke 2011, Subpixel Reconstruction Antialiasing.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace risorius::render {
 
-/// The greatest depth, 0..1, in cells of the picture; 1 where some of a cell shows no skin.
+/// The largest depth of the skin, 0..1, in cells of the picture; 1 where a part of a cell shows no skin.
 struct FarthestSkin {
     static constexpr int kCell = 16;  ///< places along each side of a cell
     int columns = 0, rows = 0;
@@ -26,26 +26,27 @@ struct FarthestSkin {
 
 class SkinLayer {
   public:
-    /// For tiles of so many pixels with `samples` per pixel and side, `shaded` of which are shaded; `constants` of Lights.
-    /// The context must be current.
+    /// For tiles of the given size with `samples` x `samples` per pixel, of which `shaded` x `shaded` are shaded. `constants`: of
+    /// Lights. The context must be current.
     SkinLayer(int width_px, int height_px, int samples, int shaded,
               const ShaderConstants& constants);
     ~SkinLayer();
     SkinLayer(const SkinLayer&) = delete;
     SkinLayer& operator=(const SkinLayer&) = delete;
 
-    /// Skin is to be shaded into the layer; its part of this size is cleared.
+    /// Binds the layer for shading of the skin, and clears a part of the given size.
     void begin(int width_px, int height_px);
-    /// Skin is to be drawn as it was shaded into the bound framebuffer of bytes.
+    /// Uses the program that copies shaded skin into the bound framebuffer of bytes.
     void use() const;
 
-    /// How far away the skin in the layer is at most, cell by cell, within the box; elsewhere it is taken to be missing. Waits for the drawing.
+    /// The largest distance of the skin in the layer, cell by cell within the box; outside the box skin counts as missing. Waits
+    /// for the drawing.
     const FarthestSkin& farthest(const ClipBox& box);
 
-    /// Its places as they were shaded, rows from the bottom: colour in bytes of sRGB, and the distance (shader_lookup.cpp). Those
-    /// beside the rectangle, px of the picture, are not brought up to date.
+    /// The shaded places, rows from the bottom: sRGB bytes and the distance (see shader_lookup.cpp). Only places inside the
+    /// rectangle, px of the picture, are up to date.
     const std::vector<std::uint8_t>& read(const PixelBox& box);
-    const std::vector<std::uint8_t>& places() const { return rgba_; }  ///< read last
+    const std::vector<std::uint8_t>& places() const { return rgba_; }  ///< as of the last read()
     int shaded() const { return shaded_; }
 
   private:

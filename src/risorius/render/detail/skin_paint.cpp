@@ -106,7 +106,7 @@ Vec3 paint_centre(const Scene& scene, const Vec3& skin_min, const Vec3& skin_max
 }
 
 int paint_side(double pixels_per_metre) {
-    // A metre of skin is this long on the map (a head of 0.1 m radius); a quarter more than one texel per pixel.
+    // Length of a metre of skin on the map (for a head of 0.1 m radius), and texels per pixel: a quarter more than one.
     constexpr double kMapPerMetre = 2.5, kTexelsPerPixel = 1.25;
     int side = kMinPaintSide;
     while (side < kMaxPaintSide && side * kMapPerMetre < kTexelsPerPixel * pixels_per_metre)
@@ -141,19 +141,19 @@ GLuint paint_skin(const Scene& scene, const SceneBuffers& buffers, const OwnText
     glClearColor(bare.x(), bare.y(), bare.z(), 0.4F);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 
-    // Between the lips the map is bare, and their inner sides look there.
+    // No triangle covers the map between the lips, but their inner sides look it up. It gets the tone of the lips.
     glDisable(GL_DEPTH_TEST);
     draw_strokes(plan_lip_ground(scene, plan, centre));
     glEnable(GL_DEPTH_TEST);
 
-    // Skin: where the surface folds, the outermost layer is what can be seen.
+    // Where the surface folds, the outermost layer is the visible one.
     {
         const GlProgram program("paint", paint_vertex_shader(), paint_fragment_shader());
         program.use();
         const Eigen::Vector3f middle = centre.cast<float>();
         glUniform3fv(program.location("centre"), 1, middle.data());
         set_plan(program, plan, scene.appearance);
-        GLint outer = 0;  // belongs to the vertex array, which is not ours
+        GLint outer = 0;  // state of the vertex array, which belongs to the caller
         glGetIntegerv(GL_ELEMENT_ARRAY_BUFFER_BINDING, &outer);
         glGenBuffers(1, &elements);
         glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, elements);
@@ -167,7 +167,7 @@ GLuint paint_skin(const Scene& scene, const SceneBuffers& buffers, const OwnText
         glDeleteBuffers(1, &elements);
     }
 
-    // Hair and freckles over it, or the picture that shows them
+    // Hair and freckles over the skin, or the texture that shows them
     if (has_own_skin(scene)) own.paint_skin(scene, centre, triangles);
     glDisable(GL_DEPTH_TEST);
     if (!has_own_skin(scene)) draw_strokes(plan_strokes(scene, plan, centre, triangles));
@@ -190,8 +190,8 @@ GLuint make_pores(unsigned seed) {
     RandomSequence random(seed * 7919U + 17U);
     const auto wrap = [](int i) { return static_cast<std::size_t>((i + 4 * kSide) % kSide); };
 
-    // Pits of some hundredths of a square millimetre at most, many small and few large, closer together in some places than in
-    // others, and the gentle lattice between them
+    // Pits of some hundredths of a square millimetre at most, many small and few large, denser in some places than in others,
+    // with a shallow lattice between them
     const auto crowded = [](double x, double y) {
         const double u = 2 * std::numbers::pi * x / kSide, v = 2 * std::numbers::pi * y / kSide;
         return 0.60 + 0.20 * std::sin(2 * u + std::sin(v)) + 0.20 * std::sin(3 * v - u + 1.0);

@@ -12,15 +12,15 @@ namespace risorius::render {
 namespace {
 
 struct ZoneRecipe {
-    const char* landmark;  ///< without its side
+    const char* landmark;  ///< without the suffix of its side
     bool paired;
     double spread_m;
     Vec3 log_tint;
     double oil;
-    Vec3 offset{0, 0, 0};  ///< m, for the left side
+    Vec3 offset{0, 0, 0};  ///< m, of the left side
 };
 
-// Where blood lies close under the skin, where the lids let it shine through, and where the face is oily.
+// Where blood is close under the skin, where the lids let it shine through, and where the face is oily.
 const ZoneRecipe kRecipes[] = {
     {"ma", true, 0.017, {-0.02, -0.15, -0.13}, 0.10, {-0.004, -0.004, 0}},
     {"mc", true, 0.018, {-0.02, -0.11, -0.09}, 0.0},
@@ -45,7 +45,7 @@ const ZoneRecipe kRecipes[] = {
     {"ch", true, 0.0034, {-0.40, -0.46, -0.42}, -0.14, {0.0014, -0.0002, 0}},  // lips tuck in
     {"ch", true, 0.0018, {-0.30, -0.42, -0.42}, -0.10, {-0.0008, 0, 0}},
     {"sto", false, 0.020, {-0.01, -0.06, -0.05}, 0.0},
-    // Where the lips meet they turn in, redder and darker
+    // Where the lips meet they turn inwards, redder and darker.
     {"sto", false, 0.0022, {-0.16, -0.30, -0.28}, 0.0, {0, -0.0003, 0}},
     {"lli", true, 0.0026, {-0.16, -0.30, -0.28}, 0.0, {-0.004, 0, 0.001}},
     {"lli", true, 0.0022, {-0.20, -0.34, -0.32}, 0.0, {0.003, 0, -0.001}},
@@ -59,7 +59,7 @@ class Marks {
         const auto it = marks_.find(id);
         return it == marks_.end() ? nullptr : &it->second;
     }
-    /// All of them, or none.
+    /// All of the landmarks, or an empty list if one is missing.
     std::vector<Vec3> all(const std::vector<std::string>& ids) const {
         std::vector<Vec3> points;
         for (const std::string& id : ids) {
@@ -94,7 +94,7 @@ void plan_lips(const Marks& marks, SkinPlan& plan) {
     std::vector<Vec3> upper = marks.all({"ch_r", "ulc_r", "cph_r", "ls", "cph_l", "ulc_l", "ch_l"});
     const std::vector<Vec3> lower = marks.all({"ch_l", "llc_l", "li", "llc_r", "ch_r"});
     if (upper.empty() || lower.empty()) return;
-    // The red comes up to the crests of the philtrum and dips between them: a bow.
+    // The upper border rises to the crests of the philtrum and dips between them (Cupid's bow).
     constexpr double kBow_m = 0.0004;
     upper[2].y() += 0.7 * kBow_m;
     upper[3].y() -= kBow_m;
@@ -106,12 +106,12 @@ void plan_lips(const Marks& marks, SkinPlan& plan) {
     plan.lip_back_m = std::min(upper.front().z(), upper.back().z()) - 0.035;
 }
 
-/// Along the jaw, on the chin, between nose and lip and under the jaw; sideburns join it to the hair.
+/// Along the jaw, on the chin, between nose and lip and under the jaw. Sideburns join it to the hair of the head.
 void plan_beard(const Marks& marks, SkinPlan& plan) {
     struct Spot {
         const char *from, *to;
         bool paired;
-        double fraction;  ///< of the way
+        double fraction;  ///< along the way, 0..1
         double spread_m;
         Vec3 offset{0, 0, 0};
     };
@@ -134,7 +134,7 @@ void plan_beard(const Marks& marks, SkinPlan& plan) {
         }
 }
 
-/// Hair grows beyond a closed line on the map: over the forehead through the marks, in front of the ears, to the nape.
+/// Hair grows outside a closed curve on the map: over the forehead through the landmarks, in front of the ears, to the nape.
 void plan_hairline(const Marks& marks, const Vec3& centre, const Appearance& appearance,
                    SkinPlan& plan) {
     plan.hairline.fill(2.0);
@@ -148,7 +148,7 @@ void plan_hairline(const Marks& marks, const Vec3& centre, const Appearance& app
         const Vec2 d = paint_place(p, centre) - Vec2(0.5, 0.5);
         knots.push_back({std::atan2(d.x(), d.y()), d.norm()});
     };
-    // Higher up the forehead is backwards too; the map only sees the direction from the middle of the head.
+    // Higher on the forehead is also farther back; the map only knows the direction from the middle of the head.
     const Vec3 higher = 1e-3 * appearance.hairline_mm * Vec3(0, 0.75, -0.65),
                bay = higher + 1e-3 * appearance.temples_mm * Vec3(0, 0.7, -0.7),
                side_bay = 0.4 * higher + 1e-3 * appearance.temples_mm * Vec3(0, 0.3, -0.6);
@@ -157,7 +157,7 @@ void plan_hairline(const Marks& marks, const Vec3& centre, const Appearance& app
         const double s = side == 0 ? 1 : -1;
         const Vec3& temple = side == 0 ? temple_l : temple_r;
         const Vec3& tragion = side == 0 ? front[3] : front[4];
-        // The bay of the temple, its point, the front edge of the sideburn, its foot, behind the ear, the nape
+        // Bay of the temple, its point, front edge and foot of the sideburn, behind the ear, nape
         add(front[0] + 0.55 * (temple - front[0]) + Vec3(0, 0.012, -0.004) + bay);
         add(temple + Vec3(0, 0, -0.004) + side_bay);
         add(tragion + Vec3(0, 0.034, 0.026));
@@ -189,7 +189,7 @@ std::vector<Vec3> smooth_curve(const std::vector<Vec3>& knots, int steps) {
     std::vector<Vec3> points;
     const auto count = static_cast<int>(knots.size());
     const auto knot = [&](int i) -> Vec3 {
-        // Reflected ends keep the end spans as round as their neighbours.
+        // Reflected end points make the end spans as round as their neighbours.
         if (i < 0) return 2 * knots.front() - knots[1];
         if (i >= count) return 2 * knots.back() - knots[static_cast<std::size_t>(count) - 2];
         return knots[static_cast<std::size_t>(i)];

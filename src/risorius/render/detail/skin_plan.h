@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Places of lips, redness, hairline and ears on a head, derived from its landmarks. Parts without landmarks are left out.
+/// Positions of lips, redness, hairline and ears on a head, derived from its landmarks. Parts without landmarks are omitted.
 #pragma once
 
 #include <array>
@@ -10,21 +10,21 @@
 
 namespace risorius::render {
 
-/// A soft spot of another tint: albedo is multiplied by exp(log_tint) at its middle.
+/// A soft spot of another tint: at its centre, albedo is multiplied by exp(log_tint).
 struct SkinZone {
     Vec3 centre;      ///< rest, m
     double spread_m;  ///< standard deviation
     Vec3 log_tint;
-    double oil;  ///< added gloss
+    double oil;  ///< added oil, which makes the skin glossy
 };
 
-/// What of the skin belongs to an ear: inside the box, its bowl, and what is farther out than a plane that leans outwards
-/// backwards and upwards, as the auricle does.
+/// The skin of an ear: points inside the box that lie in the bowl or outside a plane, which leans outwards towards the back and
+/// the top, as the auricle does.
 struct EarRegion {
     bool known = false;
     Vec3 low, high;      ///< rest, m
     double out_m = 0.0;  ///< |x| of the plane at the front of the box
-    double lean = 0.0;   ///< growth of that |x| per metre backwards and up
+    double lean = 0.0;   ///< increase of that |x| per metre backwards and upwards
     bool contains(const Vec3& p) const;
 };
 
@@ -34,22 +34,22 @@ struct SkinPlan {
     std::vector<SkinZone> zones;
     std::vector<Vec3> lip_outline;  ///< closed, rest, m; empty when not marked
     double lip_back_m = 0.0;        ///< lips lie in front of this z
-    /// Radius on the map (0..0.5) beyond which hair grows, by angle from straight up, towards the left first; above 1: none.
+    /// Radius on the map (0..0.5) beyond which hair grows, by angle from straight up towards the left; above 1: no hair.
     std::array<double, kHairlineSteps> hairline;
-    std::vector<SkinZone> beard;  ///< soft spots (middle and spread) where a beard grows
+    std::vector<SkinZone> beard;  ///< soft spots (centre and spread) with a beard
     std::array<EarRegion, 2> ears;
-    std::array<std::vector<Vec3>, 2> brows;  ///< centre lines from the middle outwards, rest, m
+    std::array<std::vector<Vec3>, 2> brows;  ///< centre lines from medial to lateral, rest, m
 };
 
 SkinPlan plan_skin(const Scene& scene, const Vec3& paint_centre);
 
-/// How densely a beard grows at a place of the skin, 0..1.
+/// Density of a beard at a point of the skin, 0..1.
 double beard_density(const SkinPlan& plan, const Vec3& rest);
 
-/// Tone of the hair at an age: grey from the middle of life on.
+/// Tone of the hair at the age of the appearance: grey from middle age on.
 Vec3 hair_tone_at(const Appearance& appearance);
 
-/// Radius at which hair starts in a direction on the map.
+/// Radius at which hair starts, in the direction of a place on the map.
 double hairline_radius(const SkinPlan& plan, const Vec2& place);
 
 /// Points on a Catmull-Rom curve through `knots`, `steps` per span, ends included.

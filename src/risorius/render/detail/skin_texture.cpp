@@ -12,14 +12,15 @@
 namespace risorius::render {
 namespace {
 
-/// The back of the head is the rim of the map, whose triangles about its very middle the paint leaves out.
+/// The back of the head lies on the rim of the map. The paint leaves out the triangles around its very middle, so places are kept
+/// inside the rim.
 Vec2 within_rim(const Vec2& place) {
     constexpr double kRim = 0.487;
     const Vec2 off = place - Vec2(0.5, 0.5);
     return Vec2(0.5, 0.5) + off * std::min(1.0, kRim / std::max(off.norm(), 1e-9));
 }
 
-/// Square roots of linear light between four texels of the map.
+/// Bilinear interpolation of the map, in square roots of linear light.
 Vec3 sample(const std::vector<std::uint8_t>& map, int side, const Vec2& place) {
     const double x = std::clamp(place.x() * side - 0.5, 0.0, side - 1.001),
                  y = std::clamp(place.y() * side - 0.5, 0.0, side - 1.001);
@@ -43,7 +44,8 @@ Vec3 sample(const std::vector<std::uint8_t>& map, int side, const Vec2& place) {
 Image unfold_paint(const Scene& scene, const Vec3& centre, const std::vector<std::uint8_t>& map,
                    int map_side, Image image) {
     const int side_px = image.width_px;
-    // Where a layout has faces upon each other, as insides of lids on lids, those that look outwards can be seen, and of them the outermost.
+    // Where faces overlap on the texture coordinates, as the insides and outsides of lids may, those that look outwards win, and
+    // among them the outermost.
     std::vector<float> outermost(
         static_cast<std::size_t>(side_px) * static_cast<std::size_t>(side_px), 0.0F);
     for (const Surface& surface : scene.surfaces) {

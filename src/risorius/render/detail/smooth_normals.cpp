@@ -33,7 +33,7 @@ SmoothNormals::SmoothNormals(const Points& rest, const std::vector<const Triangl
     const std::size_t faces = corners_.size() / 3;
     face_normals_.resize(3 * faces);
 
-    // Each vertex alone
+    // Triangles of each vertex alone
     std::vector<std::vector<int>> own(vertices);
     for (std::size_t i = 0; i < corners_.size(); ++i)
         own[static_cast<std::size_t>(corners_[i])].push_back(static_cast<int>(i / 3));
@@ -47,7 +47,7 @@ SmoothNormals::SmoothNormals(const Points& rest, const std::vector<const Triangl
             for (std::size_t k = 0; k < 3; ++k)
                 alone[v][k] += face_normals_[3 * static_cast<std::size_t>(f) + k];
 
-    // Then those that share a place and a side of it
+    // Then weld vertices with the same position and a similar normal.
     std::vector<int> order(vertices);
     std::iota(order.begin(), order.end(), 0);
     const auto place = [&](int v) {
@@ -74,7 +74,7 @@ SmoothNormals::SmoothNormals(const Points& rest, const std::vector<const Triangl
     }
     around_begin_.resize(vertices + 1, 0);
     for (std::size_t v = 0; v < vertices; ++v) {
-        // One order for all members of a weld, so that their sums agree to the last bit.
+        // All members of a weld sum in the same order, so that their sums agree to the last bit.
         std::sort(around[v].begin(), around[v].end());
         around_.insert(around_.end(), around[v].begin(), around[v].end());
         around_begin_[v + 1] = static_cast<int>(around_.size());

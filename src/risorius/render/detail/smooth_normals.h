@@ -9,20 +9,20 @@
 
 namespace risorius::render {
 
-/// Vertices that share a rest position, and look the same way there, share a normal, so that the seams of a file do not show;
-/// lips that touch look opposite ways and stay apart.
+/// Vertices with the same rest position and similar normals there share one normal, so seams of a mesh file do not show. Lips
+/// that touch have opposite normals and stay separate.
 class SmoothNormals {
   public:
     SmoothNormals(const Points& rest, const std::vector<const Triangles*>& surfaces);
 
-    /// Three floats per vertex, unit length (zero where a vertex has no area around it).
+    /// Computes three floats per vertex, unit length (zero where a vertex has no area around it).
     void compute(const std::vector<float>& positions, std::vector<float>& normals);
 
   private:
     std::vector<int> corners_;       ///< 3 per triangle
     std::vector<int> around_begin_;  ///< V + 1
-    std::vector<int> around_;        ///< triangles around a vertex and around those it is welded to
-    std::vector<float> face_normals_;  ///< 3 per triangle, twice the area long
+    std::vector<int> around_;  ///< triangles around a vertex and around the vertices welded to it
+    std::vector<float> face_normals_;  ///< 3 per triangle, scaled by twice the area
 };
 
 }  // namespace risorius::render

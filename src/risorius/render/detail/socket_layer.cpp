@@ -10,9 +10,10 @@
 namespace risorius::render {
 namespace {
 
-constexpr unsigned kRings = 8, kAround = 24;  ///< from the rim to the pole behind
-// The rim lies on the eyeball, so that no view from aside shows it, a little before the corners of the eye; from there the bowl
-// widens, as shares of the eyeball's radius, over so much of its rings.
+/// From the rim to the pole behind the eye, and around the axis
+constexpr unsigned kRings = 8, kAround = 24;
+// The rim lies on the eyeball, so that it does not show from the side, a little in front of the corners of the eye. From there
+// the bowl widens (radii as ratios to the eyeball) over the fraction kWidens of its rings.
 constexpr double kBeforeCorners_m = 0.0035, kAtRim = 1.005, kWidest = 1.25, kWidens = 0.375;
 
 std::vector<unsigned> bowls(const std::array<int, 2>& vertex) {
@@ -20,7 +21,7 @@ std::vector<unsigned> bowls(const std::array<int, 2>& vertex) {
     unsigned first = 0;
     for (const int v : vertex) {
         if (v < 0) continue;
-        // Counter-clockwise from within
+        // Counter-clockwise from inside
         for (unsigned ring = 0; ring < kRings; ++ring)
             for (unsigned k = 0; k < kAround; ++k) {
                 const unsigned next = (k + 1) % kAround, a = first + ring * kAround + k,
@@ -32,7 +33,7 @@ std::vector<unsigned> bowls(const std::array<int, 2>& vertex) {
     return indices;
 }
 
-/// A vertex of each eyeball, where it has one and lids about it.
+/// A vertex on each eyeball that exists and has lids; else -1.
 std::array<int, 2> eye_vertices(const Scene& scene, const PosedMarks& marks) {
     std::array<int, 2> vertex{-1, -1};
     Pose rest;
@@ -58,7 +59,7 @@ SocketLayer::SocketLayer(const Scene& scene, const std::array<int, 2>& vertex,
     : vertex_(vertex),
       eyes_(scene.eyes),
       program_("sockets", constants.in(socket_vertex_shader()), constants.in(socket_shader())),
-      triangles_(bowls(vertex), {3, 3, 1}) {  // place, normal, how open
+      triangles_(bowls(vertex), {3, 3, 1}) {  // position, normal, openness
     for (std::size_t eye = 0; eye < 2; ++eye)
         if (vertex_[eye] >= 0) rest_[eye] = scene.rest.row(vertex_[eye]).transpose();
 }
@@ -67,7 +68,7 @@ void SocketLayer::upload(const Pose& pose, const PosedMarks& marks) {
     std::vector<float> vertices = triangles_.take();
     for (std::size_t eye = 0; eye < 2; ++eye) {
         if (vertex_[eye] < 0) continue;
-        // The eyeball is rigid, so that any place on it tells where its middle is.
+        // The eyeball is rigid, so any vertex on it gives its centre.
         const Vec3 centre = pose.positions.row(vertex_[eye]).transpose() -
                             pose.eye_rotation[eye] * (rest_[eye] - eyes_[eye].centre);
         const LidMarks lids = marks.lids(pose, static_cast<int>(eye));
@@ -100,7 +101,7 @@ void SocketLayer::upload(const Pose& pose, const PosedMarks& marks) {
 void SocketLayer::draw() const {
     program_.use();
     glBlendFuncSeparate(GL_ONE, GL_ZERO, GL_ONE, GL_ZERO);
-    glEnable(GL_CULL_FACE);  // of the outside nothing is seen
+    glEnable(GL_CULL_FACE);  // the outside is never visible
     triangles_.draw();
     glDisable(GL_CULL_FACE);
 }

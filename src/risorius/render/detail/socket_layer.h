@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A bowl about each eyeball, open to the front, so that the head is not transparent beside an eye whose lids stand off it.
+/// A bowl around each eyeball, open to the front. It closes the gap beside an eye whose lids do not touch it, so that one cannot
+/// see through the head.
 #pragma once
 
 #include <array>
@@ -14,11 +15,11 @@ namespace risorius::render {
 
 class SocketLayer {
   public:
-    /// Nothing is drawn about eyes that are missing, or whose lids are not known; `constants` of Lights. The context must be current.
+    /// Nothing is drawn for eyes that are missing or have no lid landmarks. `constants`: of Lights. The context must be current.
     SocketLayer(const Scene& scene, const PosedMarks& marks, const ShaderConstants& constants);
 
     void upload(const Pose& pose, const PosedMarks& marks);
-    /// Opaque, behind what is there; binds a vertex array of its own.
+    /// Draws opaque with depth test; binds a vertex array of its own.
     void draw() const;
     void mark(const Eigen::Matrix4f& clip_from_world, PictureCells& cells) const {
         triangles_.mark(clip_from_world, cells);
@@ -29,7 +30,7 @@ class SocketLayer {
                 const ShaderConstants& constants);
 
     std::array<int, 2> vertex_;  ///< of each eyeball's surface, or -1 for no bowl
-    std::array<Vec3, 2> rest_;   ///< where it is at rest, m
+    std::array<Vec3, 2> rest_;   ///< its rest position, m
     std::array<Eye, 2> eyes_;
     GlProgram program_;
     StreamedTriangles triangles_;

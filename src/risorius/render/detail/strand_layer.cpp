@@ -9,11 +9,11 @@
 namespace risorius::render {
 namespace {
 
-constexpr double kTip = 0.25;  ///< of the width at the root
+constexpr double kTip = 0.25;  ///< width at the tip, fraction of that at the root
 
-constexpr double kBend = 0.5;  ///< of a sample, that a hair may lose
+constexpr double kBend = 0.5;  ///< largest deviation of a simplified hair, in samples
 
-// From a drawn point of a hair to the next: two, where leaving out those between hardly straightens it.
+// Step from one drawn point of a hair to the next: two, if leaving out the points between hardly straightens the hair.
 std::size_t stride_of(const Strand& strand, double sample_m) {
     for (std::size_t i = 1; i + 1 < kStrandPoints; i += 2) {
         const Vec3 &before = strand.offset[i - 1], &after = strand.offset[i + 1];
@@ -49,7 +49,7 @@ StrandLayer::StrandLayer(const Scene& scene, std::vector<Strand> strands, const 
       sample_m_(sample_m),
       program_("strand", with_tone(scene, std::move(constants)), strand_shader()),
       triangles_(strand_ribbons(strands_, sample_m),
-                 {3, 3, 2}) {  // place, direction, opacity and shade
+                 {3, 3, 2}) {  // position, direction, opacity and shade
     for (const Surface& surface : scene.surfaces)
         if (surface.material == Material::kEye && surface.triangles.rows() > 0) {
             const auto eye = static_cast<std::size_t>(std::max(surface.eye, 0));
@@ -61,7 +61,7 @@ StrandLayer::StrandLayer(const Scene& scene, std::vector<Strand> strands, const 
 void StrandLayer::upload(const Pose& pose, const PosedMarks& marks) {
     std::vector<float> vertices = triangles_.take();
     const std::array<LidMarks, 2> lids{marks.lids(pose, 0), marks.lids(pose, 1)};
-    // An eye turns about its centre, so one of its vertices tells where that has gone.
+    // An eye rotates about its centre, so one of its vertices gives the position of the centre.
     std::array<Vec3, 2> centre;
     for (std::size_t eye = 0; eye < 2; ++eye) {
         centre[eye] = eyes_[eye].centre;
@@ -86,7 +86,7 @@ void StrandLayer::upload(const Pose& pose, const PosedMarks& marks) {
             const Vec3 side = along.cross(camera_ - p[i]).normalized();
             const double u = static_cast<double>(i) / (kStrandPoints - 1);
             const double width = strand.width_m * (1 - (1 - kTip) * u * u);
-            // Never thinner than a sample and a half, which the rasteriser would miss; as much paler instead.
+            // A hair is at least one and a half samples wide, since the rasteriser misses thinner ones; it is paler instead.
             const double drawn = std::max(width, 1.5 * sample_m_);
             const auto opacity = static_cast<float>(width / drawn);
             for (const double half : {-0.5, 0.5}) {

@@ -16,12 +16,12 @@ namespace risorius::render {
 
 class StrandLayer {
   public:
-    /// `sample_m`: of the picture at the head; thinner hairs are drawn so wide and the paler; `constants` of Lights.
-    /// The context must be current.
+    /// `sample_m`: size of a sample at the head; thinner hairs are drawn wider and paler. `constants`: of Lights. The context
+    /// must be current.
     StrandLayer(const Scene& scene, std::vector<Strand> strands, const Camera& camera,
                 double sample_m, ShaderConstants constants);
     void upload(const Pose& pose, const PosedMarks& marks);
-    /// Blended over what is there; binds a vertex array of its own.
+    /// Blends the hairs over the picture; binds a vertex array of its own.
     void draw() const;
     void mark(const Eigen::Matrix4f& clip_from_world, PictureCells& cells) const {
         triangles_.mark(clip_from_world, cells);
@@ -30,8 +30,8 @@ class StrandLayer {
   private:
     std::vector<Strand> strands_;
     std::array<Eye, 2> eyes_;
-    std::array<Vec3, 2> eye_point_;          ///< a vertex of each eye at rest
-    std::array<int, 2> eye_vertex_{-1, -1};  ///< and which
+    std::array<Vec3, 2> eye_point_;          ///< rest position of a vertex of each eye
+    std::array<int, 2> eye_vertex_{-1, -1};  ///< the number of that vertex
     Vec3 camera_;
     double sample_m_;
     GlProgram program_;

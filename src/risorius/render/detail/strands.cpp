@@ -17,7 +17,7 @@ using Shape = std::array<Vec3, kStrandPoints>;
 
 Vec3 row(const Points& points, int v) { return points.row(v).transpose(); }
 
-/// Barycentric shares of p in a triangle of the plane, when it lies inside.
+/// Barycentric coordinates of p in a triangle of the plane, if it lies inside.
 std::optional<Vec3> fractions(const Vec2& p, const Vec2& a, const Vec2& b, const Vec2& c) {
     const Vec2 u = b - a, v = c - a, w = p - a;
     const double area = u.x() * v.y() - u.y() * v.x();
@@ -28,7 +28,7 @@ std::optional<Vec3> fractions(const Vec2& p, const Vec2& a, const Vec2& b, const
     return Vec3(1 - s - t, s, t);
 }
 
-/// Finds the outermost skin at places of the map, near a line.
+/// Finds the outermost skin at places of the paint map near a line.
 class SkinMap {
   public:
     SkinMap(const Scene& scene, const Vec3& centre, const std::vector<unsigned>& skin,
@@ -75,7 +75,7 @@ class SkinMap {
     std::vector<Cell> cells_;
 };
 
-/// What is nearest to the front about an eye, on a grid across and up.
+/// The frontmost surface around an eye, on a grid of x and y.
 class FrontOfEye {
   public:
     static constexpr double kCell_m = 1e-4;
@@ -167,13 +167,13 @@ FrontOfEye front_between(const Scene& scene, int eye, const std::array<Vec3, 2>&
              std::max(corner[0].y(), corner[1].y()) + kHeight_m}};
 }
 
-constexpr double kOntoLid_m = 0.0003;  ///< roots of lashes
+constexpr double kOntoLid_m = 0.0003;  ///< lash roots are moved onto the lid by this distance
 
-/// The end of a lid in one column: up (or down) from the eye to the first skin, and a little onto it.
+/// The end of a lid in one column of the grid: the first skin above (or below) the eye, moved a little onto the lid.
 std::optional<SkinPlace> lid_end(const FrontOfEye& front, const Vec2& middle, double up,
                                  double onto_m = kOntoLid_m) {
     constexpr double kSearch_m = 0.007;
-    // The middle line may lie on a lid: the eye is then a little above or below.
+    // The middle line may lie on a lid; then the eye is a little above or below it.
     double start = 0;
     bool found = false;
     for (double off = 0; off < kSearch_m && !found; off += FrontOfEye::kCell_m)
@@ -196,7 +196,7 @@ std::optional<SkinPlace> lid_end(const FrontOfEye& front, const Vec2& middle, do
     return std::nullopt;
 }
 
-/// Up and away from the eye; `aside` fans them out, `curl` bends them.
+/// A lash grows up and away from the eye; `aside` fans the lashes out, `curl` bends them.
 Shape lash_shape(double length_m, double aside, bool upper) {
     Shape shape;
     for (std::size_t i = 0; i < kStrandPoints; ++i) {
@@ -239,7 +239,7 @@ std::vector<Strand> plan_brows(const Scene& scene, const SkinPlan& plan, const V
         const std::vector<Vec3>& line = plan.brows[side];
         if (line.size() < 3) continue;
         RandomSequence random(scene.appearance.seed * 31U +
-                              5U);  // the same for both: brows are mirrored
+                              5U);  // the same seed for both: brows are mirror images
         const SkinMap map(scene, paint_centre, skin, line);
         for (int i = 0; i < kHairs; ++i) {
             const BrowHair hair = next_brow_hair(line, paint_centre, random);
@@ -257,7 +257,7 @@ std::vector<Strand> plan_brows(const Scene& scene, const SkinPlan& plan, const V
             along = (along - out * out.dot(along)).normalized();
             for (std::size_t k = 0; k < kStrandPoints; ++k) {
                 const double u = static_cast<double>(k) / (kStrandPoints - 1);
-                // Rises from its follicle and lies down again, with the skin that bends away below it
+                // The hair rises from its follicle and lies down again, while the skin below bends away.
                 const double height = 0.00012 + hair.length_m * (lift * u - 0.75 * lift * u * u);
                 strand.offset[k] = frame.transpose() * (hair.length_m * u * along + height * out);
             }
@@ -275,9 +275,9 @@ std::vector<Strand> plan_lashes(const Scene& scene, int eye) {
     const FrontOfEye front = front_between(scene, eye, *corner);
 
     for (const bool upper : {true, false}) {
-        RandomSequence random(scene.appearance.seed * 131U +
-                              (upper ? 1U : 2U));  // eyes mirror each other
-        // Some ninety and fifty lashes, none near the inner corner (textbooks: 90-160 and 75-80 in several rows)
+        // The same seed for both eyes, which are mirror images
+        RandomSequence random(scene.appearance.seed * 131U + (upper ? 1U : 2U));
+        // Counts of lashes; none grow near the inner corner (textbooks: 90-160 upper and 75-80 lower lashes in several rows).
         const int count = upper ? 126 : 66;
         const double first = upper ? 0.12 : 0.22, last = 0.985;
         double tuft = 0;
@@ -291,7 +291,7 @@ std::vector<Strand> plan_lashes(const Scene& scene, int eye) {
             Strand strand;
             strand.root = *root;
             strand.eye = eye;
-            // Longest a little outside of the middle; the tips of a tuft draw together.
+            // Lashes are longest a little lateral of the middle; the tips of a tuft converge.
             const double bow = std::sin(std::numbers::pi * std::pow(s, 1.25));
             const double length = upper ? 0.0045 + 0.0042 * bow : 0.0024 + 0.0020 * bow;
             const double aside =

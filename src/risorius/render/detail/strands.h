@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Single hairs that grow from the skin and move with it: brows and lashes, planned from landmarks and the ends of the lids, for any head.
+/// Single hairs that grow from the skin and move with it: brows and lashes, planned for any head from landmarks and lid margins.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace risorius::render {
 
 constexpr std::size_t kStrandPoints = 5;
 
-/// A point of a skin triangle.
+/// A point on a triangle of the skin.
 struct SkinPlace {
     std::array<int, 3> corner{};
     Vec3 fraction = Vec3::Zero();  ///< barycentric
@@ -27,28 +27,29 @@ struct SkinPlace {
 
 struct Strand {
     SkinPlace root;
-    int eye = -1;                            ///< of a lash: 0 left, 1 right; of a brow: none
+    int eye = -1;                            ///< of a lash: 0 left, 1 right; of a brow: -1
     std::array<Vec3, kStrandPoints> offset;  ///< from the root, m, in the frame of the root
     double width_m = 0;                      ///< at the root
-    double shade = 1;                        ///< times the tone of hair
+    double shade = 1;                        ///< factor of the hair tone
 };
 
-/// Axes of a brow's root: along its triangle's first edge, across, and outwards.
+/// Axes at the root of a brow hair: along the first edge of its triangle, across, and outwards.
 Mat3 skin_frame(const SkinPlace& place, const Points& positions);
 
-/// Axes of a lash's root: from the inner to the outer corner, up, and away from the middle of the eye. With the lid, the lash
-/// turns about the eye.
+/// Axes at the root of a lash: from the inner to the outer corner of the eye, up, and away from the centre of the eye. As the lid
+/// moves, the lash turns about the eye.
 Mat3 lid_frame(int eye, const Vec3& root, const Vec3& eye_centre, const Vec3& inner,
                const Vec3& outer);
 
-/// Hairs of both brows; none where the plan has no brow. `skin` are the painted triangles.
+/// Hairs of both brows; empty where the plan has no brow. `skin`: the painted triangles.
 std::vector<Strand> plan_brows(const Scene& scene, const SkinPlan& plan, const Vec3& paint_centre,
                                const std::vector<unsigned>& skin);
 
-/// Lashes of one eye along the ends of its lids as they are seen from the front; none when the eye is shut or not marked.
+/// Lashes of one eye along its lid margins as seen from the front; empty when the eye is closed or has no landmarks.
 std::vector<Strand> plan_lashes(const Scene& scene, int eye);
 
-/// Where the lower lid meets the eye, from the inner to the outer corner; none when the eye is shut or not marked.
+/// The line where the lower lid meets the eye, from the inner to the outer corner; empty when the eye is closed or has no
+/// landmarks.
 std::vector<SkinPlace> plan_tear_line(const Scene& scene, int eye);
 
 }  // namespace risorius::render

@@ -8,9 +8,9 @@
 namespace risorius::render {
 namespace {
 
-constexpr std::size_t kTearRows = 3;  ///< on the lid, in the corner between, on the eye
+constexpr std::size_t kTearRows = 3;  ///< on the lid, in the corner between lid and eye, on the eye
 
-// Height of the meniscus: 0.2 to 0.3 mm in healthy eyes (Mainstone et al. 1996), drawn a little wider than it is.
+// Height of the meniscus: 0.2 to 0.3 mm in healthy eyes (Mainstone et al. 1996); it is drawn a little wider.
 constexpr double kTearOntoLid_m = 0.00012, kTearOntoEye_m = 0.00038, kTearThickness_m = 0.00015;
 
 std::vector<unsigned> tear_ribbons(const std::array<std::vector<SkinPlace>, 2>& lines) {
@@ -34,7 +34,7 @@ TearLayer::TearLayer(const Scene& scene, const ShaderConstants& constants)
     : lines_{plan_tear_line(scene, 0), plan_tear_line(scene, 1)},
       eyes_(scene.eyes),
       program_("tears", constants.in(tear_vertex_shader()), constants.in(tear_shader())),
-      triangles_(tear_ribbons(lines_), {3, 3, 1}) {}  // place, normal, share of its light
+      triangles_(tear_ribbons(lines_), {3, 3, 1}) {}  // position, normal, fraction of the light
 
 void TearLayer::upload(const Pose& pose, const PosedMarks& marks) {
     std::vector<float> vertices = triangles_.take();
@@ -47,7 +47,7 @@ void TearLayer::upload(const Pose& pose, const PosedMarks& marks) {
         const Vec3 across = (lids.outer - lids.inner).normalized();
         const double width = (lids.outer - lids.inner).norm();
 
-        // The search for the lid goes by tenths of a millimetre; water has no steps.
+        // The search for the lid has steps of a tenth of a millimetre, so the line is smoothed.
         std::vector<Vec3> at;
         for (const SkinPlace& place : line) at.push_back(place.on(pose.positions));
         for (int round = 0; round < 3; ++round) {
@@ -56,7 +56,7 @@ void TearLayer::upload(const Pose& pose, const PosedMarks& marks) {
                 smooth[i] = (at[i - 1] + 2 * at[i] + at[i + 1]) / 4;
             at = std::move(smooth);
         }
-        // The eye's middle, from the line between its corners: it lies as far behind as it is wide.
+        // The centre of the eye lies behind the line between its corners by the distance between them.
         const Vec3 middle = (lids.inner + lids.outer) / 2;
         const Vec3 ahead =
             (eye == 0 ? across.cross(Vec3::UnitY()) : Vec3::UnitY().cross(across)).normalized();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The tear film along the lower lids: a concave line of water between lid and eye that reflects the lamps.
+/// The tear film along the lower lids: a concave meniscus between lid and eye that reflects the lamps.
 #pragma once
 
 #include <array>
@@ -16,18 +16,18 @@ namespace risorius::render {
 
 class TearLayer {
   public:
-    /// Draws nothing when no lids are found; `constants` of Lights. The context must be current.
+    /// Draws nothing when no lids are found. `constants`: of Lights. The context must be current.
     TearLayer(const Scene& scene, const ShaderConstants& constants);
 
     void upload(const Pose& pose, const PosedMarks& marks);
-    /// Adds its light to what is there; binds a vertex array of its own.
+    /// Adds the reflected light to the picture; binds a vertex array of its own.
     void draw() const;
     void mark(const Eigen::Matrix4f& clip_from_world, PictureCells& cells) const {
         triangles_.mark(clip_from_world, cells);
     }
 
   private:
-    std::array<std::vector<SkinPlace>, 2> lines_;  ///< of the left and the right eye
+    std::array<std::vector<SkinPlace>, 2> lines_;  ///< left eye, right eye
     std::array<Eye, 2> eyes_;
     GlProgram program_;
     StreamedTriangles triangles_;

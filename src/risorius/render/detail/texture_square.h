@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Pictures on texture coordinates during their construction: alpha is 0 where nothing lies yet.
+/// Pictures on texture coordinates while they are made: alpha is 0 where they are still empty.
 #pragma once
 
 #include "risorius/core/image.h"
@@ -10,10 +10,11 @@ namespace risorius::render {
 
 std::uint8_t srgb_byte(double linear);
 
-/// Colours grow over the border of what is covered, so that filtering finds no seam; farther off is `otherwise`, sRGB 0..1.
+/// Extends colours over the border of the covered area, so that filtering shows no seam. Farther texels become `otherwise`, sRGB
+/// 0..1.
 void fill_uncovered(Image& image, const Vec3& otherwise);
 
-/// Of what is covered, sRGB 0..1; black where nothing is.
+/// Mean of the covered texels, sRGB 0..1; black if there are none.
 Vec3 mean_colour(const Image& image);
 
 }  // namespace risorius::render

@@ -13,10 +13,10 @@ bool may_hide(const Batch& batch) {
             batch.material == Material::kMouth);
 }
 
-/// Gives each cell of a square the greatest of those up to `by` beside it.
+/// Replaces each cell of a square by the maximum over the cells up to `by` away.
 void widen(int side, int by, std::vector<float>& cells) {
     std::vector<float> row(static_cast<std::size_t>(side));
-    for (const int along : {1, side})  // steps from a cell to the next: rows, then columns
+    for (const int along : {1, side})  // steps to the next cell: in a row, then in a column
         for (int line = 0; line < side; ++line) {
             float* const first = cells.data() + line * (along == 1 ? side : 1);
             for (int i = 0; i < side; ++i) row[static_cast<std::size_t>(i)] = first[i * along];
@@ -56,7 +56,7 @@ bool TriangleChoice::is_seen(const unsigned* face, bool cull_back) const {
     for (std::size_t k = 0; k < 2; ++k)
         if ((a[k] < -1 && b[k] < -1 && c[k] < -1) || (a[k] > 1 && b[k] > 1 && c[k] > 1))
             return false;
-    // A thousandth of a pixel of any picture is left to the rasteriser to judge.
+    // The last thousandth of a pixel is left to the rasteriser.
     constexpr float kRounding = 1e-10F;
     return !cull_back || (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]) > -kRounding;
 }
@@ -75,7 +75,7 @@ void TriangleChoice::choose(const Eigen::Matrix4f& clip_from_world, bool whole) 
             triangles_.corners_of(batch, Purpose::kSeen, whole);
         for (std::size_t k = 0; k < corners.size(); k += 3) {
             const unsigned* face = corners.data() + k;
-            // What has a texture is looked up by the number of its triangle.
+            // The texture coordinates of a textured batch are looked up by triangle number, so its triangles are all kept.
             if (batch.texture < 0 && !is_seen(face, batch.cull_back)) continue;
             const bool wrinkled =
                 apart && (wrinkled_[face[0]] || wrinkled_[face[1]] || wrinkled_[face[2]]);
@@ -90,9 +90,9 @@ void TriangleChoice::choose(const Eigen::Matrix4f& clip_from_world, bool whole) 
 
 void TriangleChoice::choose_casters(const Eigen::Matrix4f& light_from_world,
                                     const Eigen::Matrix4f* clip_from_world) {
-    // What is seen, in cells of the shadow map: how far from the lamp it is at most
+    // Visible surfaces in cells of the shadow map: their largest distance from the lamp
     constexpr int kCells = 64;
-    // Cells more on each side, a thirtieth of a picture, for soft edges and for hairs
+    // Cells added on each side, a thirtieth of a picture, for soft edges and hairs
     constexpr int kWider = 2;
     constexpr float kNowhere = -1e9F;
     const std::size_t vertices = positions_.size() / 3;
@@ -113,7 +113,7 @@ void TriangleChoice::choose_casters(const Eigen::Matrix4f& light_from_world,
         Cells cells;
         for (std::size_t k = 0; k < 3; ++k) {
             const float* p = lit_places_.data() + 3 * static_cast<std::size_t>(face[k]);
-            // Counted from there, so that cutting off rounds down
+            // The offset makes the values positive, so that truncation rounds down.
             const int x = static_cast<int>(p[0] + kWider) - kWider,
                       y = static_cast<int>(p[1] + kWider) - kWider;
             cells.from_x = std::min(cells.from_x, x);
@@ -126,7 +126,7 @@ void TriangleChoice::choose_casters(const Eigen::Matrix4f& light_from_world,
         return cells;
     };
     if (clip_from_world) look_from(*clip_from_world);
-    constexpr int kRow = kCells + 2 * kWider;  // with those beside the map
+    constexpr int kRow = kCells + 2 * kWider;  // cells including those beside the map
     farthest_lit_.assign(static_cast<std::size_t>(kRow) * kRow, kNowhere);
     const auto farthest_at = [&](int x, int y) -> float& {
         return farthest_lit_[static_cast<std::size_t>((y + kWider) * kRow + x + kWider)];
@@ -209,7 +209,7 @@ void TriangleChoice::keep_if(Keep keep) {
 void TriangleChoice::leave_out_unseen(SkinLayer& skin, PictureCells& cells,
                                       const std::function<void(PictureCells&)>& mark_others) {
     finish_drawing();
-    // What lies behind the skin
+    // Things behind the skin
     ClipBox inner;
     for (std::size_t i = 0; i < triangles_.batches().size(); ++i) {
         if (!may_hide(triangles_.batches()[i])) continue;
@@ -224,7 +224,7 @@ void TriangleChoice::leave_out_unseen(SkinLayer& skin, PictureCells& cells,
         const auto cell = [](float clip, float cells_, float by, int max) {
             return std::clamp(static_cast<int>((0.5F * clip + 0.5F) * cells_ + by), 0, max - 1);
         };
-        // A pixel more on each side: samples lie beside the middle of theirs.
+        // One more pixel on each side, because samples lie off the centre of their pixel.
         constexpr float kPixel = 1.0F / FarthestSkin::kCell;
         const int from_x = cell(box.left, farthest.width, -kPixel, farthest.columns),
                   to_x = cell(box.right, farthest.width, kPixel, farthest.columns),
@@ -241,7 +241,7 @@ void TriangleChoice::leave_out_unseen(SkinLayer& skin, PictureCells& cells,
         return !may_hide(batch) || !is_hidden(face);
     });
 
-    // Skin where nothing else is
+    // Skin where nothing else is visible
     keep_if([&](const Batch& batch, const unsigned* face) {
         if (batch.material == Material::kSkin)
             cells.touch(box_of(face));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Chooses the triangles of a scene to be drawn in a pose: those that the camera sees, and those whose shadows it may see.
+/// Selects the triangles of a scene to draw in a pose: those that the camera sees, and those that cast visible shadows.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,31 +18,31 @@ namespace risorius::render {
 
 class TriangleChoice {
   public:
-    /// `positions`: x, y, z of each vertex now, m; `wrinkled`: per vertex now, or empty when nothing folds. All are looked at when
-    /// something is chosen, and have to outlive it.
+    /// `positions`: current x, y, z of each vertex, m. `wrinkled`: current flag per vertex, or empty when nothing folds. Both are
+    /// read at every selection and must outlive this object.
     TriangleChoice(const SceneTriangles& triangles, const std::vector<float>& positions,
                    const std::vector<std::uint8_t>& wrinkled)
         : triangles_(triangles), positions_(positions), wrinkled_(wrinkled) {}
 
     /// Call when positions have changed.
     void moved() { looked_from_.reset(); }
-    /// Which triangles of each batch the next draws are of: those within the clip space that do not turn their back to it, of
-    /// batches that have one; of where things are now. Skin with wrinkles on it apart from the rest. As coarse as may be unless
-    /// `whole`.
+    /// Selects the triangles that the next draws show, for the current positions: those inside the clip space, without back faces
+    /// in batches that cull them. Wrinkled skin is listed separately. Simplified triangles are used unless `whole`.
     void choose(const Eigen::Matrix4f& clip_from_world, bool whole);
-    /// Which throw shadows: those of the skin, whichever side is lit (light that has come in at the mouth does not go out at the
-    /// back of the head), that lie nearer to the lamp than something that is seen there. Without a clip space all is taken to be seen.
+    /// Selects the triangles that cast shadows: those of the skin, on either side of it (so light that enters the mouth does not
+    /// leave through the back of the head), that are nearer to the lamp than something visible. Without a clip space everything
+    /// counts as visible.
     void choose_casters(const Eigen::Matrix4f& light_from_world,
                         const Eigen::Matrix4f* clip_from_world);
-    /// Of what was chosen to be seen leaves out: eyes, teeth, gums and tongue where they lie behind the skin of the layer; and
-    /// skin where the layer is the picture already, which the cells know afterwards. What lines the mouth stays: a gap narrower
-    /// than the layer's pixels shows it.
+    /// Removes hidden triangles from the visible ones: eyes, teeth, gums and tongue behind the skin of the layer, and skin where
+    /// the layer already is the picture, which is recorded in the cells. The lining of the mouth stays, since it may show through
+    /// gaps narrower than the pixels of the layer.
     void leave_out_unseen(SkinLayer& skin, PictureCells& cells,
                           const std::function<void(PictureCells&)>& mark_others);
 
-    /// Vertices of what was chosen last, three for each triangle.
+    /// Vertices of the last selection, three per triangle.
     const std::vector<unsigned>& corners() const { return choice_; }
-    /// In those of a purpose: first smooth triangles, then wrinkled ones, in indices.
+    /// Range of a batch in the selection of a purpose: first smooth triangles, then wrinkled ones, in indices.
     struct Range {
         int first = 0, smooth = 0, wrinkled = 0;
     };
@@ -58,10 +58,10 @@ class TriangleChoice {
     Eigen::Vector4f place_in(const Eigen::Matrix4f& clip_from_world, std::size_t vertex) const;
     void look_from(const Eigen::Matrix4f& clip_from_world);
     bool is_seen(const unsigned* face, bool cull_back) const;
-    /// Where a triangle lies in the clip space last chosen by, and its nearest depth, 0..1.
+    /// Bounding box of a triangle in the clip space of the last selection, and its smallest depth, 0..1.
     ClipBox box_of(const unsigned* face) const;
     float nearest_depth(const unsigned* face) const;
-    /// Keeps of the choice to be seen the triangles of batches that keep(batch, triangle).
+    /// Keeps only visible triangles for which keep(batch, triangle) is true.
     template <typename Keep>
     void keep_if(Keep keep);
 
@@ -71,7 +71,8 @@ class TriangleChoice {
     std::array<std::vector<Range>, kPurposes> ranges_;
     std::vector<unsigned> choice_, wrinkled_choice_;
     std::optional<Eigen::Matrix4f> looked_from_;
-    std::vector<float> clip_places_;  ///< x, y, z over w, and w; as looked from there
+    /// Per vertex x, y, z over w, and w, in the clip space of looked_from_
+    std::vector<float> clip_places_;
     std::vector<float> lit_places_, farthest_lit_;
 };
 

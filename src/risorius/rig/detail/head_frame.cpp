@@ -45,7 +45,7 @@ HeadFrame find_head_frame(const std::map<std::string, Vec3>& landmarks, const At
     frame.rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
     const double atlas_per_here = svd.singularValues().dot(signs) / here_spread;
     frame.size = 1.0 / atlas_per_here;
-    // The tragia define the origin; without them the atlas, grown to this head's size, stands in.
+    // The tragia define the origin. If they are missing, those of the scaled atlas are used.
     frame.translation = frame.size * there_mean - frame.rotation * here_mean;
     const auto left = landmarks.find("t_l"), right = landmarks.find("t_r");
     if (left != landmarks.end() && right != landmarks.end())

@@ -11,11 +11,11 @@
 namespace risorius::rig {
 
 struct HeadFrame {
-    Mat3 rotation =
-        Mat3::Identity();  ///< head = rotation * (mesh units * metres_per_unit) + translation
+    /// Head = rotation * (mesh units * metres_per_unit) + translation
+    Mat3 rotation = Mat3::Identity();
     Vec3 translation = Vec3::Zero();  ///< m
     double metres_per_unit = 1.0;
-    double size = 1.0;        ///< this head / the atlas head, ratio of lengths
+    double size = 1.0;        ///< ratio of lengths, this head over the atlas head
     double residual_m = 0.0;  ///< RMS distance of the aligned landmarks from the atlas, m
 
     Vec3 to_head(const Vec3& mesh_units) const {
@@ -25,7 +25,8 @@ struct HeadFrame {
     Points to_mesh(const Points& head) const;
 };
 
-/// Rigid fit with scale of the given landmarks (mesh units) to the atlas, made symmetric. The scale is returned as `size`.
+/// Fits the given landmarks (mesh units) to the atlas by a rigid motion with scale, by least squares. If both tragia are given, the
+/// origin is midway between them. The scale is returned as `size`.
 HeadFrame find_head_frame(const std::map<std::string, Vec3>& landmarks, const Atlas& atlas,
                           double metres_per_unit);
 

@@ -14,10 +14,10 @@ namespace risorius::rig {
 
 namespace {
 
-constexpr double kAroundMouth_m = 40e-3;  // of stomion, at atlas size
+constexpr double kAroundMouth_m = 40e-3;  // radius around stomion, at atlas size
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// Shortest ways along the edges of a surface from the vertex nearest to any of `from`.
+// Shortest distances along the edges of a surface from the vertex nearest to any of `from`.
 std::unordered_map<int, double> ways_from(
     const std::vector<Vec3>& from, const Points& vertices,
     const std::unordered_map<int, std::vector<int>>& neighbours) {
@@ -29,7 +29,7 @@ std::unordered_map<int, double> ways_from(
         double min = kInfinite;
         for (const auto& [v, others] : neighbours) {
             const double squared = (vertices.row(v).transpose() - p).squaredNorm();
-            // The lower index of equally near ones: a hash map has no order of its own
+            // Of equally near vertices the lowest index is used, because the order of a hash map is not defined.
             if (squared < min || (squared == min && v < start)) {
                 min = squared;
                 start = v;
@@ -54,7 +54,7 @@ std::unordered_map<int, double> ways_from(
     return way;
 }
 
-// Triangles of the skin around the mouth that are nearer, along the skin, to the border of this lip than to the other's.
+// The triangles around the mouth that are nearer, along the skin, to the border of this lip than to that of the other lip.
 Triangles lip_skin(const Triangles& around, const std::unordered_map<int, double>& own,
                    const std::unordered_map<int, double>& other) {
     std::vector<long> rows;
@@ -74,7 +74,7 @@ Triangles lip_skin(const Triangles& around, const std::unordered_map<int, double
     return out;
 }
 
-// A vertex rather than a point between: whoever rides there must not be taken for the other lip, which touches.
+// Returns a vertex instead of a point between vertices: a point on the margin must belong to one lip, although the lips touch.
 Vec3 nearest_vertex(const Vec3& p, const Points& vertices, const Triangles& triangles) {
     int best = triangles(0, 0);
     for (long f = 0; f < triangles.rows(); ++f)
@@ -105,7 +105,7 @@ std::map<std::string, Vec3> missing_landmarks(const Points& vertices, const Tria
         if (!given.count(landmark.id)) warped[landmark.id] = warp(landmark.position);
     if (warped.empty()) return warped;
 
-    // The skin around the mouth, and the ways along it from the borders of both lips
+    // The skin around the mouth, and distances along it from the borders of both lips.
     const Vec3 mouth = given.at("sto");
     std::vector<long> near;
     std::unordered_map<int, std::vector<int>> neighbours;

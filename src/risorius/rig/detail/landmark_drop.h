@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Estimates landmarks that were not given: the atlas is warped through those that were, and the points are projected onto the skin.
-/// Points on the margin of a lip are projected onto that lip only, since the other lip touches it.
+/// Estimates missing landmarks: the atlas is warped to fit the given ones, and its points are projected onto the skin. A point on
+/// the margin of a lip is projected onto that lip only, because the other lip touches it.
 #pragma once
 
 #include <map>
@@ -12,8 +12,8 @@
 
 namespace risorius::rig {
 
-/// `given`: landmarks of the atlas in the head frame, m; stomion and both midline points of the vermilion border must be among them.
-/// Returns all others. `skin` is welded; `size` is the size of this head / that of the atlas head.
+/// `given`: landmarks of the atlas in the head frame, m. They must include stomion and both midline points of the vermilion
+/// border. `skin` must be welded. `size`: size of this head over that of the atlas head. Returns all other landmarks.
 std::map<std::string, Vec3> missing_landmarks(const Points& vertices, const Triangles& skin,
                                               const Atlas& atlas,
                                               const std::map<std::string, Vec3>& given,

@@ -11,7 +11,7 @@ namespace risorius::rig {
 
 LipLine::LipLine(const Head& head)
     : right_(head.landmark("ch_r")), left_(head.landmark("ch_l")), middle_(head.landmark("sto")) {
-    // The deepest place between the lips, some millimetres up or down from where the landmarks put it
+    // Search for the deepest point between the lips, a few millimetres above or below the line of the landmarks.
     const geom::SurfaceTree skin(head.vertices, head.skin);
     constexpr int kReach = 8;  // half millimetres
     std::vector<double> offset(kStations + 1, 0.0);
@@ -27,7 +27,7 @@ LipLine::LipLine(const Head& head)
             z[static_cast<std::size_t>(k + kReach)] = hit ? hit->point.z() : 0;
         }
         if (!whole) continue;
-        double best = head.mm(0.15);  // what shallower furrows are: none
+        double best = head.mm(0.15);  // shallower furrows are ignored
         for (int k = -kReach + 1; k < kReach; ++k) {
             const double t = static_cast<double>(k + kReach) / (2 * kReach);
             const double chord = (1 - t) * z.front() + t * z.back();

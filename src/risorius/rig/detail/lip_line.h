@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The line between the lips as seen from the front. A scan with lips that have grown together is cut along it.
+/// The line between the lips as seen from the front. Closed lips of a scan are cut along it.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace risorius::rig {
 
-/// Height y and depth z as functions of x, from corner to corner, head frame, m: a parabola through the landmarks on each side, shifted
-/// up or down to the deepest place between the lips.
+/// Height y and depth z as functions of x, from corner to corner, head frame, m. It is a parabola through the landmarks on each
+/// side, moved up or down to the deepest point between the lips.
 class LipLine {
   public:
     explicit LipLine(const Head& head);
@@ -23,7 +23,7 @@ class LipLine {
   private:
     static constexpr int kStations = 24;
     double x_of(int i) const { return right_.x() + (left_.x() - right_.x()) * i / kStations; }
-    /// The parabolas alone, with level tangents in the middle.
+    /// The parabolas only, with horizontal tangents in the middle.
     Vec3 plain(double x) const;
 
     Vec3 right_, left_, middle_;

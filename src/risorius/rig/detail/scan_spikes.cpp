@@ -10,9 +10,10 @@ namespace risorius::rig {
 
 namespace {
 
-constexpr double kLip_mm = 9;       // of the line: what belongs to the lips
-constexpr double kJump_mm = 8;      // along an edge, backwards
-constexpr double kLargest = 0.005;  // of all vertices; more than that is a mouth
+constexpr double kLip_mm = 9;   // distance from the line within which points belong to the lips
+constexpr double kJump_mm = 8;  // smallest jump backwards along an edge
+// Largest fraction of all vertices; more means that the surface has a mouth
+constexpr double kLargest = 0.005;
 constexpr int kSweeps = 60;
 
 }  // namespace
@@ -25,7 +26,7 @@ Points without_spikes(const Head& head, const LipLine& line, int& count) {
     };
     const auto on_lips = [&](int v) { return off(v).norm() < head.mm(kLip_mm); };
 
-    // Where the surface jumps from the lips backwards
+    // Find edges where the surface jumps backwards from the lips.
     std::map<int, std::set<int>> next;
     std::vector<int> open;
     for (long f = 0; f < head.skin.rows(); ++f)
@@ -39,7 +40,7 @@ Points without_spikes(const Head& head, const LipLine& line, int& count) {
                     open.push_back(deep);
         }
 
-    // What lies behind it
+    // Collect the points behind these edges.
     std::set<int> spikes;
     while (!open.empty()) {
         const int v = open.back();
@@ -53,7 +54,7 @@ Points without_spikes(const Head& head, const LipLine& line, int& count) {
     }
     count = static_cast<int>(spikes.size());
 
-    // Back between the others: the spikes' neighbours first stand for them, then all are evened out
+    // Move the spikes back: first each is set to the mean of its neighbours, then all are smoothed.
     for (int v : spikes) {
         Vec3 sum = Vec3::Zero();
         int known = 0;

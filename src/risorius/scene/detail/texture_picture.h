@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The pixels of a picture that a mesh's material names.
+/// Reads the picture of a texture that a material of a mesh names.
 #pragma once
 
 #include "risorius/core/image.h"
@@ -8,7 +8,8 @@
 
 namespace risorius::scene {
 
-/// From its file or from within the mesh's. Throws Error naming the material's place when there is no such picture.
+/// Reads it from its own file or from the file of the mesh. Throws Error naming the place of the material when there is no such
+/// picture.
 Image read_texture(const geom::Texture& texture);
 
 }  // namespace risorius::scene

@@ -12,7 +12,7 @@ namespace risorius::solve::detail {
 namespace {
 
 /// An equilibrium goes through pseudo-time first, so it gets this many times the iterations of a step of motion.
-constexpr int kSettlingIterations = 10;
+constexpr int kEquilibriumIterations = 10;
 
 NewtonOptions newton_options(const IntegratorOptions& options) {
     NewtonOptions newton;
@@ -119,7 +119,7 @@ class QuasiStatic final : public Integrator {
         system.place_fixed(until_s, state.x, state.v);
         start_ = state.x;
         NewtonOptions options = newton_options(options_);
-        options.iterations *= kSettlingIterations;
+        options.iterations *= kEquilibriumIterations;
         const NewtonReport newton = newton_.solve_equilibrium(
             system, {until_s, std::numeric_limits<double>::infinity(), start_}, options, state.x);
         add(newton, report);

@@ -21,17 +21,17 @@ double closeness(double h, double until_s) {
 
 }  // namespace
 
-ProgressMonitor::ProgressMonitor(const IntegratorOptions& options)
+DivergenceMonitor::DivergenceMonitor(const IntegratorOptions& options)
     : farthest_squared_(std::pow(options.diverged_at * options.length_scale_m, 2)),
       left_at_s_(std::numeric_limits<double>::quiet_NaN()) {}
 
-bool ProgressMonitor::begin(const MotionState& state) {
+bool DivergenceMonitor::begin(const MotionState& state) {
     if (state.t_s == left_at_s_ && state.x.rows() == began_.rows()) return false;
     began_ = state.x;
     return true;
 }
 
-bool ProgressMonitor::diverged(const Points& x, const Points& v) const {
+bool DivergenceMonitor::diverged(const Points& x, const Points& v) const {
     const double* p = x.data();
     const double* p0 = began_.data();
     const double* q = v.data();

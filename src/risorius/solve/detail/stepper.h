@@ -8,9 +8,9 @@
 namespace risorius::solve::detail {
 
 /// Stores where a motion began, and detects whether a state continues the last one.
-class ProgressMonitor {
+class DivergenceMonitor {
   public:
-    explicit ProgressMonitor(const IntegratorOptions& options);
+    explicit DivergenceMonitor(const IntegratorOptions& options);
 
     void restart() { left_at_s_ = std::numeric_limits<double>::quiet_NaN(); }
 
@@ -48,7 +48,7 @@ class Stepper : public Integrator {
     const IntegratorOptions options_;
 
   private:
-    ProgressMonitor monitor_;
+    DivergenceMonitor monitor_;
     double origin_s_ = 0;
     long count_ = 0;
 };
@@ -82,7 +82,7 @@ class ControlledStepper : public Integrator {
     Points trial_x_, trial_v_;
 
   private:
-    ProgressMonitor monitor_;
+    DivergenceMonitor monitor_;
     double step_s_;
 };
 

@@ -28,12 +28,12 @@ using design::ControlKind;
 
 namespace {
 
-// Estimates for two cores: seconds for a clip, a frame and a pixel, and bytes for a pixel
+// Estimates for two cores: seconds per clip, per frame and per pixel, and bytes per pixel
 constexpr double kClip_s = 0.1, kFrame_s = 0.04, kPixel_s = 1e-7, kByte_px = 0.03,
                  kLosslessByte_px = 1.2;
-constexpr double kMaxHeld_bytes = 0.6e9;  // of frames that are kept in memory
+constexpr double kMaxHeld_bytes = 0.6e9;  // limit for frames that are kept in memory
 
-/// The places in a script that name a file.
+/// The positions in a script that name a file.
 std::vector<Json::json_pointer> file_keys(const Json& script) {
     std::vector<Json::json_pointer> out;
     for (const char* key : {"/rig", "/emg/file", "/view/light/file"})
@@ -62,7 +62,7 @@ std::string stem(const ClipPlan& plan) { return "stimuli/stim-" + plan.condition
 /// The suffix of BIDS for a video without and with sound.
 std::string suffix(const ClipPlan& plan) { return plan.sound ? "_audiovideo" : "_video"; }
 
-/// Whether the table has the places of the landmarks: the design asks for them, or the clip is made with them.
+/// Whether the table has the positions of landmarks, because the design requests them or the clip is made with them.
 bool needs_landmarks(const ClipPlan& plan) {
     const design::ControlKind kind = plan.condition.control.kind;
     return plan.clips.landmarks || shows_part(kind) || kind == design::ControlKind::kApex ||
@@ -84,7 +84,7 @@ bool moves_the_head(const track::ScriptDescription& script, const track::Channel
 
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-/// Hands on the pictures of an unmatched render and returns their luminance before and after matching.
+/// Passes on the pictures of an unmatched render and returns their luminance before and after matching.
 Json show_matched(const ClipPlan& plan, const UnmatchedRender& render,
                   const animate::FrameRows& rows, const ProgressMonitor& monitor,
                   ClipPictures& pictures) {
@@ -153,7 +153,7 @@ void ClipPlan::match(const media::Tone& matched) {
 
 namespace {
 
-/// The name of a condition's script in messages: that of the design, in the folder from which its relative paths start.
+/// The name of a condition's script in messages: that of the design, in the folder to which its relative paths refer.
 std::string script_name(const design::Condition& condition, const fs::path& design) {
     const std::string file = condition.folder == design.parent_path()
                                  ? design.filename().string()
@@ -168,7 +168,7 @@ std::string sha256_of_rig(const animate::RigInput& rig) {
     return animate::sha256_of_text(digests);
 }
 
-/// Throws Error when the control cannot be made of the script.
+/// Throws Error when the script is not suitable for the control.
 void check_control(const ClipPlan& plan, const track::ScriptDescription& script,
                    const track::ChannelTable& channels, const std::string& place) {
     const design::ControlKind kind = plan.condition.control.kind;
@@ -184,7 +184,7 @@ void check_control(const ClipPlan& plan, const track::ScriptDescription& script,
                     "one that the script moves");
 }
 
-/// The checksum of all that the pictures depend on before they are matched.
+/// The checksum of everything that the unmatched pictures depend on.
 std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256) {
     const design::Condition& condition = plan.condition;
     Json rendered{{"toolkit", kVersion},
@@ -205,12 +205,12 @@ std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256
     return animate::sha256_of_text(rendered.dump());
 }
 
-/// The checksum of all that the clip depends on.
+/// The checksum of everything that the clip depends on.
 std::string content_sha256_of(const ClipPlan& plan) {
     const design::Condition& condition = plan.condition;
     const design::ClipOptions& clips = plan.clips;
     const design::ControlKind kind = condition.control.kind;
-    Json content{{"film", plan.render_sha256},  // the key is part of what is hashed
+    Json content{{"film", plan.render_sha256},  // the key is part of the hashed text
                  {"control", condition.control.name()},
                  {"seed", kind == design::ControlKind::kScrambled ||
                                   kind == design::ControlKind::kPhaseScrambled
@@ -296,7 +296,7 @@ bool is_made(const ClipPlan& plan, const fs::path& folder) {
                 return false;
         return true;
     } catch (const std::exception&) {
-        return false;  // another file, or an incomplete one: the clip is made again
+        return false;  // another or an incomplete file: the clip is made again
     }
 }
 
@@ -317,7 +317,7 @@ animate::RenderJob render_job_of(const ClipPlan& plan, const fs::path& out,
 
 namespace {
 
-/// The script as it is played, into code/scripts.
+/// Writes the script, as it is played, to code/scripts.
 void write_clip_script(const ClipPlan& plan, const fs::path& folder) {
     const fs::path script = folder / script_file(plan);
     fs::create_directories(script.parent_path());
@@ -327,7 +327,7 @@ void write_clip_script(const ClipPlan& plan, const fs::path& folder) {
             "\n");
 }
 
-/// The unmatched render that a clip is made of: the one that is there, or a new one.
+/// The unmatched render of a clip: an existing one, or a new one.
 UnmatchedRender unmatched_render_for(const ClipPlan& plan, const ClipWorker& worker) {
     std::optional<UnmatchedRender> render = find_unmatched_render(plan, worker.folder);
     if (!render) {
@@ -338,15 +338,15 @@ UnmatchedRender unmatched_render_for(const ClipPlan& plan, const ClipWorker& wor
     return *std::move(render);
 }
 
-/// What a clip shows, and what the sidecar says of it.
+/// The content of a clip, and what the sidecar records about it.
 struct ShownClip {
     animate::FrameRows rows;
-    std::vector<int> order;  ///< the frame of the script that each frame shows
+    std::vector<int> order;  ///< for each frame of the clip: the frame of the script
     animate::Moments moments;
-    Json run, luminance;  ///< luminance: null unless it is matched
+    Json run, luminance;  ///< luminance: null if it is not matched
 };
 
-/// Renders the clip, or takes its pictures from an unmatched render, and shows them as the control wants it.
+/// Renders the clip, or takes its pictures from an unmatched render, and applies the control.
 ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
                     const std::optional<UnmatchedRender>& unmatched, const ClipWorker& worker,
                     ClipPictures& pictures) {
@@ -369,7 +369,7 @@ ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
     return shown;
 }
 
-/// The sidecar, without the checksums of the files.
+/// The sidecar without the checksums of the files.
 Json sidecar_of(const ClipPlan& plan, ShownClip shown, ClipPictures& pictures) {
     const auto shown_at = [&](int frame) {
         return static_cast<int>(std::find(shown.order.begin(), shown.order.end(), frame) -
@@ -412,7 +412,7 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
         fs::create_directories((folder / file).parent_path());
     std::optional<UnmatchedRender> unmatched;
     if (plan.luminance) unmatched = unmatched_render_for(plan, worker);
-    // The clip is not complete from here on
+    // From here on the clip counts as incomplete.
     fs::remove(folder / files.sidecar);
     write_clip_script(plan, folder);
 
@@ -429,7 +429,7 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
     ClipPictures pictures(plan, video);
     ShownClip shown = show_clip(plan, job, unmatched, worker, pictures);
 
-    // Each file is written whole or not at all, the sidecar last
+    // Each file is written completely or not at all, and the sidecar last.
     video.finish();
     report::write_text(folder / files.events,
                        events_table(shown.rows, shown.order, pictures.measures(), plan));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// One clip of a stimulus set: rendered, shown as its control wants it, and written with its ground truth.
+/// One clip of a stimulus set: it is rendered, changed as its control requires, and written with its ground truth.
 ///
 ///   stimuli/stim-NAME_video.mp4                  the pictures; with a recording it is stim-NAME_audiovideo.mp4
-///   stimuli/stim-NAME_audio.wav                  the recording alone, as loud and as long as in the clip
+///   stimuli/stim-NAME_audio.wav                  the recording alone, with the loudness and duration that it has in the clip
 ///   stimuli/stim-NAME_annot-frames_events.tsv    a row for each frame as shown: onset and duration in s, source_frame, and the
 ///                                                columns of frame_table.h
 ///   stimuli/stim-NAME_video.json                 the sidecar: how the clip was made; it exists only when the clip is complete
@@ -34,25 +34,26 @@ namespace risorius::stimuli {
 struct ClipPlan {
     design::Condition condition;
     design::ClipOptions clips;
-    std::string
-        script_name;  ///< the path that stands for the script, which is in memory, in messages
-    /// Given when pictures are matched in luminance; the clip is then made of an unmatched render (unmatched_render.h).
+    /// Path that stands for the script in messages, because the script itself is in memory
+    std::string script_name;
+    /// Given when luminance is matched; the clip is then made from an unmatched render (unmatched_render.h).
     std::optional<design::LuminanceMatch> luminance;
-    std::optional<media::Tone> tone;  ///< known when the renders of all conditions are measured
+    std::optional<media::Tone> tone;  ///< set once the renders of all conditions have been measured
     std::optional<ClipSound> sound;
     int frames = 0, fps = 0, width_px = 0, height_px = 0;
-    std::array<std::uint8_t, 3> background{};  ///< sRGB, as it is shown
-    std::string
-        scene_sha256;  ///< of face and view; renders with the same value can share a session
-    std::string render_sha256;  ///< of all that the pictures depend on before they are matched
-    std::string
-        content_sha256;  ///< of all that the clip depends on: the same value, the same bytes
-    bool render_is_shared = false;     ///< by controls of the clip
-    std::size_t condition_number = 0;  ///< of the clip's condition among all conditions
-    double seconds() const;            ///< estimated time to make it, on two cores
+    std::array<std::uint8_t, 3> background{};  ///< sRGB of the displayed background
+    /// Checksum of face and view; clips with the same value can share a session
+    std::string scene_sha256;
+    std::string render_sha256;  ///< checksum of everything that the unmatched pictures depend on
+    /// Checksum of everything that the clip depends on: equal values mean equal bytes
+    std::string content_sha256;
+    bool render_is_shared = false;     ///< whether controls of the clip use the same render
+    std::size_t condition_number = 0;  ///< index of the clip's condition among all conditions
+    double seconds() const;            ///< estimated time to make it on two cores
     double megabytes() const;          ///< estimated
     bool is_control() const { return condition.control.kind != design::ControlKind::kNone; }
-    void match(const media::Tone& matched);  ///< sets the tone; once, before the clip is made
+    /// Sets the tone; call it once, before the clip is made
+    void match(const media::Tone& matched);
 };
 
 /// Checks the script of a condition against its rig. Throws Error naming the condition.
@@ -72,27 +73,28 @@ struct ClipFiles {
 };
 ClipFiles clip_files(const ClipPlan& plan);
 
-/// What one worker of a batch makes its clips with.
+/// What a worker of a batch uses to make clips.
 struct ClipWorker {
-    const std::filesystem::path& folder;  ///< of the set
+    const std::filesystem::path& folder;  ///< folder of the set
     int threads;                          ///< RenderRequest::threads
-    int clips_at_once;                    ///< in this process
-    animate::RenderInputs& inputs;        ///< shared by all workers
-    animate::RenderSession& session;      ///< the worker's own
+    int clips_at_once;                ///< number of clips that this process makes at the same time
+    animate::RenderInputs& inputs;    ///< shared by all workers
+    animate::RenderSession& session;  ///< owned by this worker
     const ProgressMonitor& monitor;
 };
 
 /// The job that renders a clip's script into the file `out`. The script is taken from the plan, in memory.
 animate::RenderJob render_job_of(const ClipPlan& plan, const std::filesystem::path& out,
                                  const media::VideoOptions& coding, const ClipWorker& worker);
-/// The record of a run without what differs from one run to the next and from one folder to another.
+/// The record of a run, without what differs between runs and between folders.
 Json portable_record(const animate::RunRecord& record);
 std::string text_of_file(const std::filesystem::path& file);
 
-/// Throws Error, RunError and Interrupted. Then no new file has its final name, except files that the next attempt replaces.
+/// Makes a clip. Throws Error, RunError and Interrupted. After an exception no new file has its final name, except files that the
+/// next attempt replaces.
 void make_clip(const ClipPlan& plan, const ClipWorker& worker);
 
-/// The sidecar of a clip that is made.
+/// The sidecar of an existing clip.
 Json clip_record(const ClipPlan& plan, const std::filesystem::path& folder);
 
 }  // namespace risorius::stimuli

@@ -18,7 +18,7 @@ namespace {
 constexpr int kStrip = 5, kThumb_px = 120;
 constexpr int kPhotodiode_px = 64;
 
-/// A window with soft edges. Outside it the background is shown.
+/// A window with soft edges. Outside it, the background is shown.
 struct Window {
     double left = 0, top = 0, right = 0, bottom = 0;
 
@@ -80,7 +80,7 @@ std::string decimal_text(double value, int decimals) {
     return text;
 }
 
-/// The value of a column for the picture as it is shown; none unless the column is a measure of the picture.
+/// The value of a column for the displayed picture; none if the column is not a measure of the picture.
 std::optional<std::string> shown(const std::string& column, const media::PictureMeasures& picture) {
     if (column == "luminance_mean") return decimal_text(picture.luminance_mean, 6);
     if (column == "luminance_sd") return decimal_text(picture.luminance_sd, 6);

@@ -17,11 +17,12 @@
 
 namespace risorius::stimuli {
 
-/// Whether the control shows frames in another order, so that all of them are needed first.
+/// Whether the control changes the order of frames, so that all frames are needed first.
 bool shows_other_order(design::ControlKind kind);
 /// Whether the control shows only a window around eyes or mouth.
 bool shows_part(design::ControlKind kind);
 
+/// Processes the pictures of one clip.
 class ClipPictures {
   public:
     ClipPictures(const ClipPlan& plan, media::VideoWriter& video);
@@ -35,7 +36,7 @@ class ClipPictures {
     Image strip() const;
     std::string sha256() { return hash_.finish(); }
 
-    /// Measures of each frame as it is shown, without marks; empty when those of the render are valid.
+    /// Measures of each frame of the clip, without marks; empty when those of the render are still valid.
     const std::vector<media::PictureMeasures>& measures() const { return measures_; }
 
   private:
@@ -54,7 +55,7 @@ class ClipPictures {
     media::Sha256 hash_;
 };
 
-/// The table of the clip: a row for each frame as it is shown.
+/// The table of the clip, with one row per frame of the clip.
 std::string events_table(const animate::FrameRows& rows, const std::vector<int>& order,
                          const std::vector<media::PictureMeasures>& measures, const ClipPlan& plan);
 

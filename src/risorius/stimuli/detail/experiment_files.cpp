@@ -22,7 +22,7 @@ bool is_shown(const design::ExperimentOptions& experiment, const design::Conditi
                                                  condition.set) != experiment.sets.end());
 }
 
-/// The background of the screen: that of the first clip.
+/// The background of the screen, taken from the first clip.
 std::string screen_colour(const BatchPlan& plan) {
     for (const ClipPlan& clip : plan.clips)
         if (is_shown(*plan.experiment, clip.condition)) {

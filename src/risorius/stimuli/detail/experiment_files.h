@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// An example experiment with a set of clips: clips are shown in random order, and the participant answers a question by a key.
+/// An example experiment for a set of clips: the clips are shown in random order, and the participant answers a question by
+/// pressing a key.
 ///
 ///   experiment/conditions.csv    a row for each clip: file, frames, fps, movement_onset_frame, apex_frame, the right key, values
 ///   experiment/settings.json     question, keys, times
@@ -16,10 +17,10 @@
 
 namespace risorius::stimuli {
 
-/// Checks that the design has what its experiment names, and adds notes to the plan. Throws Error.
+/// Checks that the design has everything that its experiment names, and adds notes to the plan. Throws Error.
 void check_experiment(BatchPlan& plan);
 
-/// Writes the files; all clips must be made. Returns their names in `folder`.
+/// Writes the files. All clips must exist. Returns the names of the files in `folder`.
 std::vector<std::filesystem::path> write_experiment(const BatchPlan& plan,
                                                     const std::vector<Json>& records,
                                                     const std::filesystem::path& folder);

@@ -9,7 +9,7 @@ namespace risorius::stimuli {
 
 namespace {
 
-/// A published file of jsPsych, with the hash by which a browser checks it.
+/// A published file of jsPsych, and the hash by which a browser checks it.
 struct PublishedFile {
     const char* package;
     const char* version;
@@ -29,7 +29,7 @@ constexpr std::array<PublishedFile, 5> kJsPsych{{
      "sha384-BiUYHx4tdTYToceth936qf4Wkf+Ho2VZti/5bB5/nDiPRuTaZ37hrxkLsANkHGdp"},
 }};
 
-/// A URL gets a version and its hash; a folder contains what was installed into it.
+/// Loads from a URL with version and hash, or from a folder of installed packages.
 std::string load(const PublishedFile& one, const std::string& from) {
     const bool remote = from.rfind("https://", 0) == 0 || from.rfind("http://", 0) == 0;
     const std::string address = report::html_escaped(
@@ -43,7 +43,7 @@ std::string load(const PublishedFile& one, const std::string& from) {
     return "<script src=\"" + address + "\"" + guard + "></script>\n";
 }
 
-/// JSON for a script element: escaped, so that it cannot end the element.
+/// JSON for a script element, escaped so that it cannot end the element.
 std::string within_script(std::string json) {
     for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;)
         json.replace(at, 1, "\\u003c");

@@ -29,10 +29,10 @@ bool is_condition(const Json& record) { return record.at("control").get<std::str
 
 struct Together {
     media::LuminanceSums before, after;
-    double cut_off = 0;  ///< fraction of clipped values, maximum over clips
+    double cut_off = 0;  ///< clipped fraction, maximum over clips
 };
 
-/// Sums over the conditions. Controls are left out, as they are when luminance is measured.
+/// Sums over the conditions. Controls are excluded, as in the measurement of luminance.
 Together together(const std::vector<Json>& records) {
     Together out;
     for (const Json& record : records) {

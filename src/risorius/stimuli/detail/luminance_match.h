@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Matches luminance and contrast over a set: all conditions are rendered and measured first, then clips are shown through one map of
-/// linear light, or each through its own. The report is
+/// Matches luminance and contrast over a set. All conditions are rendered and measured first. Then the pictures of all clips are
+/// mapped by one affine function of linear light, or those of each clip by its own. The report is
 ///
-///   luminance/luminance.tsv     for each clip: mean and standard deviation before and after, the map, and what it clips
+///   luminance/luminance.tsv     for each clip: mean and standard deviation before and after, the map, and the clipped fraction
 ///   luminance/luminance.json    for all conditions together, and the target
-///   luminance/mean.svg, sd.svg  the clips in their order, before and after (and as .png, with what they are drawn from)
+///   luminance/mean.svg, sd.svg  the clips in their order, before and after (also as .png, with the data of the charts)
 ///
-/// Means and deviations are over all pixels of all frames that count: the picture, or the oval of the face.
+/// Means and deviations are over all measured pixels of all frames: the whole picture, or the oval of the face.
 #pragma once
 
 #include <filesystem>
@@ -20,18 +20,18 @@
 
 namespace risorius::stimuli {
 
-/// The conditions that are not measured yet, by their indices in the plan.
+/// Indices in the plan of the conditions that are not yet measured.
 std::vector<std::size_t> unmeasured(const BatchPlan& plan, const std::filesystem::path& folder);
 
-/// Sets the map of each clip; all conditions must be measured. Throws Error when the target cannot be reached.
+/// Sets the map of each clip. All conditions must be measured. Throws Error when the target cannot be reached.
 void match_luminance(const std::filesystem::path& folder, BatchPlan& plan);
 
-/// The report of clips that are all made; the names of its files in `folder`.
+/// Writes the report. All clips must exist. Returns the names of the files in `folder`.
 std::vector<std::filesystem::path> write_luminance_report(const BatchPlan& plan,
                                                           const std::vector<Json>& records,
                                                           const std::filesystem::path& folder);
 
-/// In a sentence or two.
+/// A summary of the matching in a sentence or two.
 std::string luminance_text(const std::vector<Json>& records);
 
 }  // namespace risorius::stimuli

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kMissing = "n/a";  // the missing value of BIDS
+constexpr const char* kMissing = "n/a";  // the marker of BIDS for missing values
 
 std::string cell(const Json& value) {
     if (value.is_null()) return kMissing;
@@ -172,7 +172,7 @@ std::string overview(const std::string& name, const std::vector<Json>& records,
     return report::html_page(name, html);
 }
 
-/// The files that `batch` has written into the folder for this or an earlier design, from its checksums, sidecars and names.
+/// The files in the folder that `batch` has written for this or an earlier design, found by checksums, sidecars and names.
 std::set<fs::path> written_before(const fs::path& folder) {
     std::set<fs::path> files;
     std::ifstream sums(folder / "SHA256SUMS");
@@ -186,7 +186,7 @@ std::set<fs::path> written_before(const fs::path& folder) {
         const std::string name = entry.path().filename().string();
         if (!name.starts_with("stim-")) continue;
         files.insert(fs::path("stimuli") / name);
-        // A clip that was never finished has no sidecar and no checksum
+        // An unfinished clip has no sidecar and no checksum.
         const std::string clip = name.substr(5, name.find('_') - 5);
         files.insert(fs::path("overview") / (clip + ".png"));
         files.insert(fs::path("code/scripts") / (clip + ".json"));
@@ -194,7 +194,7 @@ std::set<fs::path> written_before(const fs::path& folder) {
     return files;
 }
 
-/// Removes the files that `batch` has written for an earlier design and that this set does not have. Other files stay.
+/// Removes the files that `batch` has written for an earlier design and that this set does not contain. Other files stay.
 void remove_former_files(const fs::path& folder, const std::set<fs::path>& kept) {
     for (const fs::path& file : written_before(folder))
         if (kept.count(file) == 0 && fs::is_regular_file(folder / file)) fs::remove(folder / file);

@@ -7,7 +7,7 @@
 ///   triggers.tsv                         event, code, clip, frame, time_s: for the device that sends triggers
 ///   code/design.json                     the design
 ///   index.html                           five frames of every clip, with its values
-///   SHA256SUMS                           of every file above and below, for sha256sum -c
+///   SHA256SUMS                           checksums of all files of the set, for sha256sum -c
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@
 
 namespace risorius::stimuli {
 
-/// All clips must be made. Files of clips that an earlier design had are removed.
+/// Writes the files. All clips must exist. Removes files of clips that only an earlier design had.
 void write_set(const BatchPlan& plan, const std::filesystem::path& design,
                const std::filesystem::path& folder);
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The file of a clip with this ending; `below` is one of kIntermediateFolders.
+/// The file of a clip with the given extension; `below` is one of kIntermediateFolders.
 fs::path intermediate_file(const std::string& clip, const char* ending,
                            const char* below = kIntermediateFolders[0]) {
     return fs::path(below) / (clip + ending);
@@ -41,7 +41,7 @@ std::optional<UnmatchedRender> complete_render(const ClipPlan& plan, const std::
         render.luminance = sums_of(record.at("luminance"));
         return render;
     } catch (const std::exception&) {
-        return {};  // another file, or an incomplete one: the clip is rendered again
+        return {};  // another or an incomplete file: the clip is rendered again
     }
 }
 
@@ -103,7 +103,7 @@ void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker) {
     video.finish();
     report::write_text(table_file, result.table);
 
-    // Luminance is measured on the pictures as decoded
+    // Luminance is measured on the decoded pictures.
     const animate::FrameRows rows = animate::frame_rows(result.table);
     media::VideoReader reader(video_file);
     media::LuminanceSums sums;
@@ -134,7 +134,7 @@ std::optional<media::LuminanceSums> measured_luminance(const ClipPlan& plan,
                 return sums_of(record.at("luminance").at("before"));
         }
     } catch (const std::exception&) {
-        return {};  // of another script
+        return {};  // it belongs to another script
     }
     return {};
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A condition as it was rendered, before its pictures are matched in luminance with those of the set. It is kept, losslessly, until
-/// all conditions are measured and the clips that show it are made:
+/// A condition as it was rendered, before its luminance is matched with that of the set. It is kept losslessly until all
+/// conditions are measured and the clips that use it are made:
 ///
 ///   intermediate/NAME.mkv     the pictures
 ///   intermediate/NAME.tsv     the table of frames, frame_table.h
-///   intermediate/NAME.json    what it depends on, how it was made and its luminance; it exists only when the others are complete
+///   intermediate/NAME.json    its inputs, how it was made and its luminance; it exists only when the others are complete
 ///
-/// A control that shows the same pictures uses the render of its condition. Earlier versions wrote these files into the folder
-/// "takes": they are still found there, and removed with the others.
+/// A control that shows the same pictures uses the render of its condition. Earlier versions wrote these files to the folder
+/// "takes". They are still found there, and are removed with the others.
 #pragma once
 
 #include <filesystem>
@@ -21,31 +21,31 @@
 
 namespace risorius::stimuli {
 
-/// Folders of unmatched renders below that of the set: today's, and the one of earlier versions.
+/// Folders of unmatched renders below the folder of the set: the current one, and that of earlier versions.
 inline constexpr const char* kIntermediateFolders[] = {"intermediate", "takes"};
 
 struct UnmatchedRender {
     std::filesystem::path video;
     Json run;                        ///< how it was made; see portable_record()
     std::string table;               ///< the text of frame_table.h
-    media::LuminanceSums luminance;  ///< within the part of the picture that the design names
+    media::LuminanceSums luminance;  ///< within the measured part of the picture
 };
 
-/// The render of the clip, or that of the condition it is a control of; none unless it is complete and of the same script.
+/// The render of the clip, or of the condition of a control. Empty unless it is complete and belongs to the same script.
 std::optional<UnmatchedRender> find_unmatched_render(const ClipPlan& plan,
                                                      const std::filesystem::path& folder);
 
-/// Throws as make_clip().
+/// Renders the condition of a clip. Throws as make_clip() does.
 void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker);
 
-/// The luminance of a clip before matching, from its unmatched render or from the clip that was made of it.
+/// The luminance of a clip before matching, from its unmatched render or from the finished clip.
 std::optional<media::LuminanceSums> measured_luminance(const ClipPlan& plan,
                                                        const std::filesystem::path& folder);
 
-/// Removes the clip's own render, not that of its condition.
+/// Removes the clip's own render; that of its condition stays.
 void remove_unmatched_render(const ClipPlan& plan, const std::filesystem::path& folder);
 
-/// The pixels whose luminance counts in a frame, not 0 within the oval of the face; empty when all of the picture counts.
+/// Mask of the pixels that are measured in a frame: not 0 within the oval of the face; empty when the whole picture is measured.
 std::vector<std::uint16_t> measured_part(const ClipPlan& plan, const animate::FrameRows& rows,
                                          int frame);
 

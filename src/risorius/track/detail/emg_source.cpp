@@ -109,7 +109,7 @@ std::vector<EmgTrack> read_emg(const JsonCursor& json, const ChannelTable& chann
     const JsonCursor table = json.at("channels");
     for (const std::string& muscle : table.keys()) {
         const JsonCursor named = table.at(muscle);
-        const MuscleShare fraction = muscle_named(named, muscle, channels);
+        const MuscleFraction fraction = muscle_named(named, muscle, channels);
         const double min = channels.find(fraction.muscle)->min;
         const int column = column_named(named, recording);
         std::vector<double> samples =

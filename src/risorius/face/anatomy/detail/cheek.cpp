@@ -22,7 +22,7 @@ CheekRegions::CheekRegions(const rig::Head& head) : mm_(head.mm(1)) {
             return Vec3(head.landmark(std::string(id) + (side == 0 ? "_l" : "_r")) +
                         Vec3(out * outwards, mm_ * up, 0));
         };
-        // The landmarks lie on the bottom of the fold; what folds is the skin beside it
+        // The landmarks lie at the bottom of the fold; the skin beside it folds
         crease_[side] = geom::sample_curve({at("ac", 6.5, 7), at("nl1", 4, 2), at("nl2", 4, 2.4),
                                             at("nl3", 4, 2), at("nl3", 7, -9)},
                                            2 * mm_);

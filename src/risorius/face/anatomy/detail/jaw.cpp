@@ -78,7 +78,7 @@ double Jaw::weight(const Vec3& p, double height_over_bite_m) const {
     double half = (1.5 + 10.5 * geom::smoothstep(0.6 * corner, corner + 12 * mm, lateral)) * mm;
     half += 2.0 * mm * geom::smoothstep(50 * mm, 62 * mm, lateral);
     double w = 1.0 - geom::smoothstep(-half, half, height_over_bite_m);
-    // Below the mandible's border tissue follows it less, the nearer it is to the hyoid
+    // Below the border of the mandible, tissue follows it less the nearer it is to the hyoid
     const double below = std::max(0.0, border_height(p) - p.y()) / (9 * mm);
     w /= 1.0 + below * below;
     w *= geom::smoothstep(2 * mm, 25 * mm, p.z());
@@ -103,7 +103,7 @@ double Jaw::in_floor(const Vec3& p) const {
 
 namespace {
 
-// Shortest ways along the edges of the fine shell from the vertex nearest to `from`; infinite where there is none.
+// Returns the shortest distance along the edges of the fine shell from the vertex nearest to `from`, m; infinite if there is no path.
 std::vector<double> ways_from(const Vec3& from, const rig::Head& head, const Shell& shell) {
     const std::size_t count = static_cast<std::size_t>(head.vertices.rows());
     std::vector<std::vector<int>> neighbours(count);
@@ -140,7 +140,7 @@ std::vector<double> ways_from(const Vec3& from, const rig::Head& head, const She
 }  // namespace
 
 std::vector<double> bite_heights(const rig::Head& head, const Jaw& jaw, const Shell& shell) {
-    // Three places on each border, so that the lips' whole width is near one of them.
+    // Three points on each border, so that every point of the lips is near one of them.
     std::vector<double> to_upper, to_lower;
     const auto nearest_of = [&](const std::vector<const char*>& ids) {
         std::vector<double> min = ways_from(head.landmark(ids[0]), head, shell);

@@ -10,20 +10,21 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kMass_kg = 0.2;  // with its teeth and what moves with it: Hannam et al. 2008
-// About the centre of mass, kg m^2, transverse, upright and forward axis. Products of inertia, less than a tenth, are left out.
+constexpr double kMass_kg =
+    0.2;  // with teeth and the tissue that moves with it: Hannam et al. 2008
+// About the centre of mass: transverse, upright and forward axis. Products of inertia are less than a tenth and are left out.
 const Vec3 kInertia_kg_m2(182.2e-6, 125.2e-6, 92.19e-6);
 const Vec3 kCentreOfMass_mm(0, -50, 48);  // estimate: two thirds of the way from condyles to chin
 const Vec3 kHyoid_mm(0, -88, 38);
 constexpr double kHyoidMass_kg = 0.01;
 const Vec3 kHyoidAtFullOpening_mm(0, -10, -14);
 constexpr double kFullTurn_rad = 32 * 3.14159265358979323846 / 180.0;
-// Activity of closers in a resting jaw: 1 to 3 % of the greatest
+// Activation of the closing muscles of a resting jaw: 1 to 3 % is measured
 constexpr double kTone = 0.012;
 constexpr const char* kTonic[] = {"masseter_superficial", "masseter_deep", "temporalis_anterior",
                                   "temporalis_middle", "pterygoid_medial"};
 constexpr double kSling_n_per_m = 40e3;
-// Of joint, capsule and saliva; the tissue around has its own
+// Damping of joint, capsule and saliva; the surrounding tissue has its own
 const JawVector kDamping_n_s_per_m = (JawVector() << 4, 10, 10, 20, 5, 5, 5).finished();
 constexpr double kNewtonTolerance_m = 1e-9, kGoodEnough_m = 1e-7;
 constexpr int kHalvings = 30;
@@ -42,7 +43,7 @@ JawDynamics::JawDynamics(const rig::Head& head, const rig::RigDescription& rig,
       muscles_(head, rig, solids),
       hyoid_at_full_opening_(head.mm(1.0) * kHyoidAtFullOpening_mm),
       columns_(rig.channels().column_count()) {
-    // Six equal masses on the axes, as far out as gives the moments of inertia
+    // Six equal masses on the axes, at distances that give the moments of inertia
     const double volume = std::pow(head.size, 3);
     for (int k = 0; k < 3; ++k) {
         const double spread = 0.5 * kInertia_kg_m2.sum() - kInertia_kg_m2[k];
@@ -63,7 +64,7 @@ void JawDynamics::balance_rest() {
         energy(begin(1.0, {}, relaxed()), JawVector::Zero(), gradient, hessian);
         return gradient;
     };
-    // What the tone pulls beyond the weight presses the teeth together; slides are held by the capsules
+    // The pull of the tone beyond the weight presses the teeth together; the capsules hold the slides
     for (const JawMuscle& muscle : muscles_.list())
         if (std::find(std::begin(kTonic), std::end(kTonic), muscle.id) != std::end(kTonic))
             tonic_columns_.push_back(muscle.column);
@@ -139,7 +140,7 @@ double JawDynamics::energy(const Step& step, const JawVector& q, JawVector& grad
     gradient.segment<3>(kHyoid) += hyoid_inertia * off + kSling_n_per_m * from_sling;
     hessian.bottomRightCorner<3, 3>().diagonal().array() += hyoid_inertia + kSling_n_per_m;
 
-    // Damping, and what keeps rest in balance
+    // Damping, and the constant forces that balance rest
     const JawVector moved = q - step.start;
     const JawVector drag = kDamping_n_s_per_m.cwiseProduct(moved) / step.h;
     sum += 0.5 * drag.dot(moved) + rest_load_.dot(q);
@@ -215,7 +216,7 @@ double JawDynamics::kinetic_energy_j(const State& state) const {
 }
 
 double JawDynamics::potential_energy_j(const JawVector& q) const {
-    // A step that begins here has neither inertia nor damping
+    // A step that starts here with zero velocity has neither inertia nor damping at q
     State here;
     here.q = q;
     Step step = begin(1.0, here, relaxed());

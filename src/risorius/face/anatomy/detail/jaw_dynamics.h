@@ -5,8 +5,9 @@
 ///   q     coordinates (jaw_joint.h)     p_i  six points that carry the mass and inertia of the mandible, and the hyoid
 /// A step of length h minimises over q
 ///   E = sum m_i |p_i(q) - a_i|^2 / (2 h^2) + |q - q_n|^2_D / (2 h) + muscles + limits + hyoid sling + weight + tone,
-///   a_i = p_i(q_n) + h v_i                                      (implicit Euler, as the tissue's: face_tissue.h)
-/// It uses Newton's method with a positive second derivative and a line search. The tissue acts through `JawLoad`.
+///   a_i = p_i(q_n) + h v_i,   v_i after the step = (p_i(q) - p_i(q_n)) / h
+/// This is implicit Euler, of first order. The tissue uses BDF2 (tissue_motion.h), and so has its own h in the common solve. The minimum
+/// is found by Newton's method with a positive second derivative and a line search. The tissue acts through `JawLoad`.
 ///
 /// At rest the closing muscles have a constant tone (activation 0.012). It carries the weight of the jaw and presses the molars lightly
 /// together. Its pull along the slides and the passive tension at rest are assumed to be in balance with the capsules. So rest is an exact

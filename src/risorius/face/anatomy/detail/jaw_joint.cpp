@@ -16,14 +16,14 @@ const Vec3 kMolarLeft(22.6, -48.0, 58.4);
 const Vec3 kOcclusalNormal = Vec3(0, 0.982, -0.19).normalized();
 constexpr double kHalfWidth_mm = 50;
 constexpr double kOverbite_mm = 1.7, kOverjet_mm = 1.8;
-constexpr double kCusp_mm = 1.0, kFossa_mm = 3.0;  // height of the cusps, way out of a fossa
+constexpr double kCusp_mm = 1.0, kFossa_mm = 3.0;  // height of the cusps, distance to leave a fossa
 
 // Path of a condyle on the eminence: 12 mm forward, 5 mm down, from -40 to -10 degrees
 constexpr double kPath_mm = 12, kPathDrop_mm = -5;
 const double kFirstSlope = std::tan(-40 * kDegree), kLastSlope = std::tan(-10 * kDegree);
 
-// Limits. The temporomandibular ligament lets the jaw turn this far on resting condyles, and further as they come forward.
-// Other ligaments let a condyle come less far forward in a closed jaw than in an open one.
+// Limits. The temporomandibular ligament limits the rotation on resting condyles; the limit grows as they slide forward. Other ligaments
+// let a condyle slide less far in a closed jaw than in an open one.
 constexpr double kForwardEnd_mm = 12.5, kForwardEndClosed_mm = 8.5, kFreeTurn_deg = 15;
 constexpr double kForwardStop_n_per_m = 60e3;
 constexpr double kRetrusion_mm = 0.7, kBackPad_n_per_m = 40e3, kBackStop_n_per_m = 400e3;
@@ -51,7 +51,7 @@ JawVector along(const JawPose& pose, const Wrench& wrench) {
 JawJoint::JawJoint(const rig::Head& head, const rig::JawDescription& description)
     : size_(head.size) {
     hinge_ = head.mm(1.0) * description.hinge_mm;
-    // Front teeth lie behind the lips of this head; the others where the average has them.
+    // The front teeth lie behind the lips of this head, the others as in the average head
     incisor_ = head.landmark("sto") + head.mm(1.0) * (kIncisor - kStomion);
     const double ahead = incisor_.z() - head.mm(kIncisor.z());
     for (int side = 0; side < 2; ++side) {
@@ -69,7 +69,7 @@ JawJoint::Height JawJoint::eminence(double s) const {
     const double end = kPath_mm * 1e-3 * size_, drop = kPathDrop_mm * 1e-3 * size_;
     if (s <= 0) return {kFirstSlope * s, kFirstSlope};
     if (s >= end) return {drop + kLastSlope * (s - end), kLastSlope};
-    // Hermite's cubic
+    // Cubic Hermite interpolation
     const double t = s / end, u = 1 - t;
     return {
         end * (kFirstSlope * t * u * u - kLastSlope * t * t * u) + drop * blend(t),
@@ -140,7 +140,7 @@ JawJoint::Limit JawJoint::tooth(const JawPose& pose, const Vec3& rest, const Vec
 }
 
 JawJoint::Limit JawJoint::incisors(const JawPose& pose) const {
-    // Forward, the lower incisors ride down the backs of the upper ones
+    // Moving forward, the lower incisors slide down the back of the upper ones
     const double overbite = 1e-3 * size_ * kOverbite_mm, overjet = 1e-3 * size_ * kOverjet_mm;
     const double t = (pose.motion * incisor_ - incisor_).z() / overjet;
     Guide guide{-overbite * blend(t) - bite_block_m_,
@@ -150,7 +150,7 @@ JawJoint::Limit JawJoint::incisors(const JawPose& pose) const {
 }
 
 JawJoint::Limit JawJoint::molars(const JawPose& pose, int side) const {
-    // Out of the fossa in any direction, cusps ride on cusps
+    // Out of the fossa in any direction, cusps lie on cusps
     const double cusp = 1e-3 * size_ * kCusp_mm, way = 1e-3 * size_ * kFossa_mm;
     Vec3 aside = pose.motion * molar_[side] - molar_[side];
     aside.y() = 0;

@@ -29,7 +29,7 @@ double path_length(const JawMuscle& muscle, const JawPose& pose, const Vec3& hyo
     return length;
 }
 
-// A tendon longer than its path hangs slack, and the fibre is then as long as the muscle is thick.
+// A tendon longer than its path is slack; the fibre is then as long as the muscle is thick.
 double fibre_of(const JawMuscle& muscle, double path_m) {
     return std::hypot(std::max(0.0, path_m - muscle.slack_m), muscle.thickness_m);
 }
@@ -117,7 +117,7 @@ double JawMuscles::add_energy(const std::vector<Drive>& drive, double h, const J
     double energy = 0;
     for (std::size_t m = 0; m < muscles_.size(); ++m) {
         const JawMuscle& muscle = muscles_[m];
-        // Length of the path, how it changes, and how its segments turn
+        // Length of the path, its derivative, and the rotation of its segments
         double path = 0;
         JawVector along = JawVector::Zero();
         JawMatrix across = JawMatrix::Zero();

@@ -12,10 +12,10 @@ constexpr double kLevels[] = {0.02, 0.04, 0.06, 0.08, 0.1, 0.13, 0.16, 0.2,
                               0.23, 0.27, 0.32, 0.4,  0.5, 0.65, 0.8,  1.0};
 constexpr double kTryStep_s = 1.0 / 60.0;
 constexpr int kTrySteps = 45;
-constexpr double kMinMove = 0.01;  // ratio of the range, that counts as having moved further
+constexpr double kMinMove = 0.01;  // movement / range that counts as progress
 
-// Tissue that gives way holds a jaw this much less than tissue that only rides along, and less still once it is open: square roots
-// of ratios, found on the adult head for opening, 0.09, and sliding, 0.06.
+// Tissue that adapts holds a jaw less than tissue that only follows it, and still less once the jaw is open. Square roots of the ratios
+// on the adult head, 0.09 for opening and 0.06 for sliding.
 constexpr double kGives[] = {0.3, 0.25};
 constexpr double kYield_mm = 13, kYielded = 0.15;
 
@@ -75,7 +75,7 @@ JawSynergies::JawSynergies(const JawDynamics& jaw, const track::ChannelTable& ch
                     pattern_[group][column] = fraction.weight;
         }
         samples_[group].push_back({0, 0});
-        JawDynamics::State state;  // each level goes on from the one before
+        JawDynamics::State state;  // each level continues from the one before
         for (const double level : kLevels) {
             for (int i = 0; i < kTrySteps; ++i) {
                 const auto step = jaw.begin(kTryStep_s, state, level * pattern_[group]);
@@ -105,7 +105,7 @@ double JawSynergies::level(Group group, double moved) const {
                 (moved - samples[i - 1].moved) / (samples[i].moved - samples[i - 1].moved);
             return (1 - fraction) * samples[i - 1].level + fraction * samples[i].level;
         }
-    return samples.back().level;  // further than the muscles reach
+    return samples.back().level;  // beyond the reach of the muscles
 }
 
 Eigen::VectorXd JawSynergies::excitation(double open, double forward, double side) const {

@@ -40,7 +40,7 @@ muscle::FibrePoint TissueLocator::embed(const Vec3& p) const {
         const double far = (centres_.row(t).transpose() - p).squaredNorm();
         if (far > 4e-4) continue;
         const Eigen::Vector4d w = weights(t, p);
-        // How far outside, in metres: least weight times the tet's size.
+        // Distance outside, m: minimum weight times the size of the tet.
         const double outside =
             -std::min(0.0, w.minCoeff()) * std::sqrt(far) + (w.minCoeff() < 0 ? far : 0.0);
         if (outside < best_outside) {

@@ -11,17 +11,16 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kTurn_rad = 1.0;         // of a red lip that is rolled in
-constexpr double kFlattened = 0.45;       // share of its height over the teeth that it loses
-constexpr double kTurn_pa_per_m = 1.5e6;  // of skin and middle layer each
-constexpr double kPush_pa_per_m =
-    1.5e6;                       // a thickened muscle hardly yields to what lies in front of it
-constexpr double kPush_mm = 10;  // of the average adult, as all lengths here
+constexpr double kTurn_rad = 1.0;         // rotation of a red lip that is rolled in
+constexpr double kFlattened = 0.45;       // fraction of its height over the teeth that it loses
+constexpr double kTurn_pa_per_m = 1.5e6;  // per area, of the skin and of the middle layer
+constexpr double kPush_pa_per_m = 1.5e6;  // a thickened muscle hardly yields to the lip
+constexpr double kPush_mm = 10;           // all lengths here are those of the average adult
 constexpr std::array<double, 2> kAxisInside_mm{11, 9};  // from the rim, upper and lower lip
 constexpr double kTurnFades_mm = 9;                     // below the red lip
 constexpr double kPushFades_mm = 12;
 
-// Share of its greatest way that a muscle pushes at p: weak ones thicken most per activation.
+// Returns the push / its maximum at activation p. The muscle thickens most per activation while it is weak.
 double filled(double p) { return 1 - (1 - p) * (1 - p) * (1 - p); }
 
 }  // namespace
@@ -39,7 +38,7 @@ LipDrive::LipDrive(const rig::Head& head, const rig::RigDescription& rig, const 
     scale(rig.lips);
     const std::vector<Vec3> line = lip_line(head);
     const double half_width = 0.5 * (line.back().x() - line.front().x());
-    // Height of the lip line over x, between its points
+    // Height of the lip line at x, interpolated between its points
     const auto line_height = [&](double x) {
         for (std::size_t i = 0; i + 1 < line.size(); ++i)
             if (x <= line[i + 1].x() || i + 2 == line.size()) {
@@ -101,7 +100,7 @@ LipDrive::LipDrive(const rig::Head& head, const rig::RigDescription& rig, const 
 void LipDrive::scale(const rig::LipsDescription& lips) {
     turn_scale_ = {lips.upper_turn, lips.lower_turn};
     push_scale_ = {lips.upper_push, lips.lower_push};
-    turn_ = {-1, -1};  // nothing driven yet
+    turn_ = {-1, -1};  // drive() has not been called yet
 }
 
 void LipDrive::keep(const std::vector<int>& row, int rows) {
@@ -126,7 +125,7 @@ void LipDrive::drive(const Eigen::VectorXd& activation) {
     }
     if (turn_ == turned) return;
     for (Turned& member : turned_) {
-        // Red lip goes up or down towards the other lip, its rim back
+        // The red lip moves towards the other lip, its rim moves back
         const double fraction = turn_scale_[member.lip] * turn_[member.lip] * member.weight;
         const double angle = (member.lip == kUpper ? 1 : -1) * fraction * kTurn_rad;
         Vec3 arm = Eigen::AngleAxisd(angle, Vec3::UnitX()) * (member.rest - member.axis);

@@ -17,7 +17,7 @@ int bands_of(const rig::Atlas& atlas, const std::string& muscle) {
                       [&](const rig::MuscleBand& b) { return b.muscle == muscle; }));
 }
 
-// Points too close together would make a stiff segment.
+// Points too close together would make stiff segments.
 std::vector<Vec3> without_close_points(const std::vector<Vec3>& path, const rig::Head& head) {
     std::vector<Vec3> spaced{path.front()};
     for (std::size_t i = 1; i + 1 < path.size(); ++i)
@@ -33,7 +33,7 @@ struct Strand {
     std::vector<Vec3> places;  ///< of the points at rest, m
 };
 
-// Ends on bone ride on it. The rest is embedded in the tissue; points that fell together outside of the tissue become one.
+// Ends on bone move with it. The other points are embedded in the tissue; points that coincide outside of the tissue become one.
 Strand embed_strand(const std::vector<Vec3>& spaced, const rig::MuscleBand& band,
                     const TissueLocator& locator, const TissueMesh& mesh, const rig::Head& head) {
     Strand strand;
@@ -74,7 +74,7 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
     const track::ChannelTable channels = rig.channels();
     MusclePlacement out;
 
-    // The width given is the whole muscle's; its bands lie side by side
+    // The given width is that of the whole muscle, whose bands lie side by side
     const auto place_band = [&](const rig::MuscleBand& band, Side side) {
         const int column = channels.column(band.muscle, side);
         // The centre line, and the skin above it

@@ -16,10 +16,11 @@ constexpr double kRadian = 3.14159265358979323846 / 180.0;
 constexpr double kMuscleDensity_kg_m3 = 1060;
 constexpr double kShortTendon = 0.15;      // of the optimal fibre length; shorter tendons are rigid
 constexpr double kBinding_pa_per_m = 2e7;  // muscle to the tissue around it, by area of a node
-constexpr double kEndBinding = 15;         // how much firmer where a muscle takes hold
-constexpr double kSupport_pa_per_m = 2e7;  // deep side of a jaw muscle against its bone
-constexpr double kInside_m = 0.2e-3;       // further outside the tissue a node is not bound
-constexpr double kRefreshMove_m = 1e-3, kRefreshActivation = 0.15;  // before H is made anew
+constexpr double kEndBinding = 15;         // factor for the ends that pull on soft tissue
+constexpr double kSupport_pa_per_m = 2e7;  // of the deep side of a jaw muscle on its bone, per area
+constexpr double kInside_m = 0.2e-3;       // nodes farther outside of the tissue are not bound
+constexpr double kRefreshMove_m = 1e-3,
+                 kRefreshActivation = 0.15;  // changes after which H is factored again
 
 Vec3 blended(const std::array<Rigid, kBodies>& bodies, double jaw_fraction, const Vec3& rest) {
     return (1 - jaw_fraction) * (bodies[kSkullBody] * rest) +
@@ -107,7 +108,7 @@ void MuscleSolids::build_parts(const rig::RigDescription& rig) {
 
 namespace {
 
-// Where in a cell p is, 0..1 within it on each axis: Newton on the trilinear map, begun in the middle.
+// Returns the coordinates of p in a cell, 0..1 on each axis if inside: Newton iterations on the trilinear map from the middle.
 Vec3 place_in_cell(const Vec3& p, const Eigen::Matrix<double, 3, 8>& corner) {
     Vec3 s = Vec3::Constant(0.5);
     for (int iteration = 0; iteration < 8; ++iteration) {
@@ -156,7 +157,7 @@ void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
         bindings_.push_back(binding);
     }
 
-    // Deep tissue in or just over a jaw muscle holds on to the muscle instead of the bone
+    // Deep tissue in or just above a jaw muscle is bound to the muscle instead of the bone
     for (Attachment& attachment : attachments) {
         const int tissue_node = node_of(attachment.shell_vertex, kDeep);
         const Vec3 p = mesh.nodes.row(tissue_node).transpose();
@@ -212,7 +213,7 @@ void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
 void MuscleSolids::add_supports() {
     const Eigen::VectorXd volume = mass_ / kMuscleDensity_kg_m3;
     const auto area = [&](int node) { return std::pow(volume[node], 2.0 / 3.0); };
-    std::vector<tissue::ZeroLengthSprings::Tether> supports;
+    std::vector<tissue::ZeroLengthSprings::Spring> supports;
     for (int i = 0; i < nodes(); ++i) {
         const SolidNode& node = placement_.nodes[static_cast<std::size_t>(i)];
         if (!node.against_bone) continue;
@@ -378,7 +379,7 @@ void MuscleSolids::refresh(Group& group, double h, const Points& x,
                                 binding.solid_weight[b] * Mat3::Identity());
     }
     for (std::size_t i : group.support) {
-        const tissue::ZeroLengthSprings::Tether& support = supports_->list()[i];
+        const tissue::ZeroLengthSprings::Spring& support = supports_->list()[i];
         hessian.add(row_of(support_node_[i]), row_of(support_node_[i]),
                     support.kn_n_per_m * support.normal * support.normal.transpose());
     }
@@ -401,7 +402,7 @@ void MuscleSolids::solve_solids() const {
 double MuscleSolids::add_energy(const Points& x, const Eigen::VectorXd& activation,
                                 Points& gradient, Wrenches* on_bodies) const {
     if (empty()) return 0;
-    solid_b_.setZero(nodes(), 3);  // the gradient by the solids' nodes
+    solid_b_.setZero(nodes(), 3);  // gradient by the nodes of the muscles
     double energy = 0;
     for (const Part& part : parts_) {
         take(part, x, part.x);
@@ -436,7 +437,7 @@ double MuscleSolids::add_energy(const Points& x, const Eigen::VectorXd& activati
             gradient.row(first_ + i) += solid_b_.row(i);
     if (on_bodies == nullptr) return energy;
 
-    // A node between both bones pulls each with its share, where it would be if it rode on that bone alone
+    // A node between both bones pulls each with its fraction, at the point where it would be on that bone alone
     const auto give = [&](const SolidNode& node, const Vec3& force) {
         (*on_bodies)[kSkullBody].add((1 - node.jaw_fraction) * force, node.rest);
         (*on_bodies)[kMandibleBody].add(node.jaw_fraction * force, mandible_ * node.rest);
@@ -445,7 +446,7 @@ double MuscleSolids::add_energy(const Points& x, const Eigen::VectorXd& activati
         if (on_bone(i))
             give(placement_.nodes[static_cast<std::size_t>(i)], -solid_b_.row(i).transpose());
     for (std::size_t i = 0; i < support_node_.size(); ++i) {
-        const tissue::ZeroLengthSprings::Tether& support = supports_->list()[i];
+        const tissue::ZeroLengthSprings::Spring& support = supports_->list()[i];
         const Vec3 off = x.row(support.node).transpose() - support.target;
         give(placement_.nodes[static_cast<std::size_t>(support_node_[i])],
              support.kn_n_per_m * off.dot(support.normal) * support.normal);
@@ -473,8 +474,8 @@ void MuscleSolids::add_springs(const Points& x, std::vector<Spring>& springs) co
 }
 
 void MuscleSolids::add_metric(solve::MetricBuilder& builder) const {
-    // Tissue that let go of the bone is held by a muscle that is itself held; a muscle within the tissue is no stiffer than
-    // it, and counting it costs iterations.
+    // Tissue that is released from the bone is held by a muscle that is itself held. A muscle inside the tissue is not stiffer than the
+    // tissue; counting it would cost iterations.
     for (const Binding& binding : bindings_)
         if (binding.tissue_count == 1)
             builder.add_diagonal(binding.tissue[0], binding.stiffness_n_per_m);
@@ -563,7 +564,7 @@ std::vector<SolidFigures> MuscleSolids::figures(const Points& x,
         figures.volume_ratio = now.sum() / then.sum();
         figures.min_cell_ratio = now.cwiseQuotient(then).minCoeff();
         figures.mean_stretch = part.chains->mean_stretch(local, activation[part.place.column]);
-        // Through the middle of the belly; between two slabs when there is no middle one
+        // The section through the middle of the belly, between two slabs when there is no middle slab
         const auto thickness = [&](const Points& p) {
             double sum = 0;
             for (int m : {(grid.m - 1) / 2, grid.m / 2})

@@ -5,12 +5,13 @@
 ///   unknowns  x = [tissue nodes; nodes of all solids]           one row each
 ///   E = cells (tissue/cell_solid.h) + chains (muscle/chain_set.h) + 1/2 k |p_tissue - p_muscle|^2 + 1/2 kn (d.n)^2
 ///
-/// Nodes on bone ride on it. A node in the tissue is bound to the point of the tissue it lies in, and deep tissue on a
-/// muscle to the point of the muscle it lies on, so that they move each other. Deep nodes of jaw muscles rest on their bone.
-/// The tissue a muscle lies in keeps its own, much smaller, stiffness: that part of space is counted twice.
+/// Nodes on bone move with it. Springs bind a node inside the tissue to the point of the tissue where it lies, and deep tissue on a
+/// muscle to the point of the muscle below it; so both move each other. Deep nodes of jaw muscles rest on their bone. The tissue around
+/// a muscle keeps its own stiffness, which is much smaller: that part of space is counted twice.
 ///
-/// Preconditioner: with H the solids' second derivative (blocks of the muscles, bindings included), B the binding between
-/// solids and tissue and S a scalar matrix over the tissue alone, the inverse of [H B; B^T S + B^T H^-1 B].
+/// The preconditioner is the inverse of [H B; B^T S + B^T H^-1 B]
+/// - H: second derivative of the muscles, bindings included; B: the bindings between muscles and tissue
+/// - S: a scalar matrix over the nodes of the tissue
 #pragma once
 
 #include <array>
@@ -31,7 +32,7 @@
 #include "risorius/solve/sparse_cholesky.h"
 #include "risorius/solve/symmetric_factor.h"
 #include "risorius/tissue/cell_solid.h"
-#include "risorius/tissue/tethers.h"
+#include "risorius/tissue/zero_length_springs.h"
 
 namespace risorius::solve {
 enum class Curvature;
@@ -43,8 +44,8 @@ using Wrenches = std::array<Wrench, kBodies>;
 
 class MuscleSolids {
   public:
-    /// `attachments` are those of the tissue; their nodes that lie on a muscle let go of the bone. Throws Error naming the
-    /// muscle when it cannot be laid into this head.
+    /// `attachments` are those of the tissue. Attachments on a volume muscle are released from the bone. Throws Error with the name of
+    /// the muscle when it cannot be placed in this head.
     MuscleSolids(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
                  const Shell& shell, const TissueMesh& mesh, std::vector<Attachment>& attachments);
 
@@ -58,35 +59,35 @@ class MuscleSolids {
     int parts() const { return static_cast<int>(parts_.size()); }
     bool is_solid(const std::string& muscle) const;
 
-    /// Where skull and mandible are, motions from rest.
+    /// Sets the motions of skull and mandible from rest.
     void set_bodies(const std::array<Rigid, kBodies>& bodies);
-    /// The same within a step: the directions in which bone holds muscles off stay those of its start.
+    /// The same within a step: the directions in which bone supports muscles stay those of the start of the step.
     void move_bodies(const std::array<Rigid, kBodies>& bodies);
-    /// Moves nodes as their bones move; nodes on bone exactly to where they belong.
+    /// Moves the nodes x that follow the mandible, when it moves from `from` to `to`. Nodes on bone are placed exactly.
     void carry(Points& x, const Rigid& from, const Rigid& to) const;
-    /// Adds dE/d(motion of the mandible) of nodes that are carried along; `gradient` is that by the nodes.
+    /// Adds dE/d(motion of the mandible) of the nodes that carry() moves. `gradient` is that by the nodes, N.
     void add_riding(const Rigid& mandible, const Points& gradient, Wrench& sum) const;
 
-    /// Factors are made anew for the next step, as by solids that never took one.
+    /// Forgets all factors, so that the next step depends on its arguments alone.
     void forget();
-    /// Before the minimisation of a step of length h that starts at x.
+    /// Prepares the minimisation of a step of length h, s, that starts at x.
     void begin_step(double h, const Points& x, const Eigen::VectorXd& activation);
 
-    /// Returns E and adds dE/dx to `gradient`; nodes on bone are taken where the bodies are. Adds to `on_bodies`, when
-    /// given, what the muscles exert on the bones; dE / d(motion of a body) is the negative of it.
+    /// Returns E, J, and adds dE/dx to `gradient`, N. Nodes on bone are taken at their place on the bodies, not in x. Adds the forces of
+    /// the muscles on the bones to `on_bodies` when it is given; dE/d(motion of a body) is their negative.
     double add_energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient,
                       Wrenches* on_bodies = nullptr) const;
 
-    /// Before static energies from x on: no step, nothing is damped.
+    /// Prepares static energies at and around x: no damping.
     void begin_rest(const Points& x);
-    /// Adds the second derivative of add_energy at rest, over the rows of x.
+    /// Adds the second derivative of the static energy, N/m, over the rows of x.
     void add_hessian(const Points& x, const Eigen::VectorXd& activation, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const;
 
-    /// What the tissue feels of the solids, over the tissue's nodes.
+    /// Adds a bound of the stiffness with which the muscles hold the tissue, over the nodes of the tissue.
     void add_metric(solve::MetricBuilder& builder) const;
 
-    /// y = M^-1 b over all unknowns; `tissue` is the factor over the tissue's nodes.
+    /// Applies the preconditioner to b over all unknowns. `tissue` is the factor over the nodes of the tissue.
     void precondition(const solve::SparseCholesky& tissue, const Points& b, Points& y) const;
 
     void scale_strength(const std::string& muscle, double factor);
@@ -97,12 +98,12 @@ class MuscleSolids {
                                                       const Points& x,
                                                       const Eigen::VectorXd& activation) const;
     std::vector<SolidFigures> figures(const Points& x, const Eigen::VectorXd& activation) const;
-    double max_volume_error(const Points& x) const;  ///< ratio
-    /// Smooth surfaces of all muscles for drawing; then, wherever they are, their rows of `vertices`.
+    double max_volume_error(const Points& x) const;  ///< maximum of |volume / rest volume - 1|
+    /// Adds smooth surfaces of all muscles for drawing. place_surfaces() then writes their rows of `vertices`, m.
     void add_surfaces(MuscleSurfaces& surfaces);
     void place_surfaces(const Points& x, Points& vertices) const;
 
-    /// What binds the tissue to the muscles where these are in x: 1/2 k |sum w_i x_i - target|^2 over nodes of the tissue.
+    /// A spring between the tissue and a muscle that is held at x: 1/2 k |sum w_i x_i - target|^2 over nodes of the tissue.
     struct Spring {
         int nodes[4]{};
         double weights[4]{};
@@ -117,29 +118,29 @@ class MuscleSolids {
         SolidPart place;
         std::unique_ptr<tissue::CellSolid> cells;
         std::unique_ptr<muscle::ChainSet> chains;
-        std::unique_ptr<solve::HessianBuilder> hessian;  ///< of its own nodes
+        std::unique_ptr<solve::HessianBuilder> hessian;  ///< over its own nodes
         Points rest, start;
         mutable Points x, gradient;
         Eigen::SparseMatrix<double, Eigen::RowMajor>
-            surface;  ///< points of the skin of the muscle by nodes
+            surface;  ///< points of the drawn surface by nodes
         Eigen::Index first_vertex = 0;
     };
     struct Binding {
         int tissue[4];
         double tissue_weight[4];
         int tissue_count;
-        int solid[8];  ///< of the set's nodes
+        int solid[8];  ///< nodes of the set
         double solid_weight[8];
         int solid_count;
         double stiffness_n_per_m;
-        Vec3 apart_at_rest = Vec3::Zero();  ///< small, of nodes a little outside the tissue
+        Vec3 apart_at_rest = Vec3::Zero();  ///< offset of a node just outside of the tissue, m
     };
-    /// Parts that share nodes, with their part of the preconditioner: of the step in which it was last made.
+    /// Parts that share nodes, and their block of the preconditioner as last factored.
     struct Group {
         std::vector<int> part;
-        std::vector<int> node;              ///< of the set
-        std::vector<std::vector<int>> row;  ///< of each part's nodes, in `node`
-        std::vector<std::size_t> binding;   ///< whose muscle end is in the group
+        std::vector<int> node;              ///< nodes of the set
+        std::vector<std::vector<int>> row;  ///< per part, index into `node` of each of its nodes
+        std::vector<std::size_t> binding;   ///< bindings whose muscle end is in the group
         std::vector<std::size_t> support;
         std::unique_ptr<solve::HessianBuilder> hessian;
         solve::SymmetricFactor factor;
@@ -158,9 +159,9 @@ class MuscleSolids {
     void refresh(Group& group, double h, const Points& x, const Eigen::VectorXd& activation);
     void solve_solids() const;  ///< solid_y_ = H^-1 solid_b_
 
-    int first_ = 0;  ///< row of the first node in x
+    int first_ = 0;  ///< row of the first node of the set in x
     SolidPlacement placement_;
-    Points rest_, bone_;  ///< bone_: where nodes on bone are now
+    Points rest_, bone_;  ///< bone_: present positions of nodes on bone
     Rigid mandible_ = Rigid::Identity();
     Eigen::VectorXd mass_;
     std::vector<Part> parts_;
@@ -171,7 +172,7 @@ class MuscleSolids {
     double step_s_ = 0;
 
     std::vector<Group> groups_;
-    std::vector<int> row_;  ///< of each node in its group
+    std::vector<int> row_;  ///< per node, its row in its group
     mutable Points solid_b_, solid_y_, tissue_b_, tissue_y_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Static energies of the volume muscles: their second derivative over all unknowns of a face.
+// The second derivative of the static energy of the volume muscles, over all unknowns of a face.
 #include <limits>
 
 #include "risorius/face/muscle/detail/muscle_solids.h"

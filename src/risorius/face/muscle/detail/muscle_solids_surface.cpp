@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What volume muscles look like: smooth closed surfaces over their grids.
+// The drawn surfaces of volume muscles: smooth closed surfaces over their grids.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace risorius::face {
 
-// A smooth tube: contours of the grid's border, twice as fine around and three times along, closed by a fan at both ends.
+// A smooth tube through the border of the grid, twice as fine around and three times as fine along it, closed by fans at both ends.
 void MuscleSolids::add_surface(Part& part, MuscleSurfaces& surfaces) const {
     constexpr int kAround = 2, kAlong = 3;
     const tissue::GridShape& grid = part.place.grid;
@@ -52,7 +52,7 @@ void MuscleSolids::add_surface(Part& part, MuscleSurfaces& surfaces) const {
                     }
                 }
         }
-    // Middles of both ends
+    // The middle of each end
     for (int end = 0; end < 2; ++end)
         for (const auto& [n, o] : border)
             entries.emplace_back(slabs * ring + end, grid.index(end == 0 ? 0 : grid.m - 1, n, o),

@@ -15,13 +15,14 @@ namespace {
 using rig::MusclePath;
 using rig::PathPoint;
 
-constexpr double kEndThickness = 0.55;   // of a belly's thickness, at both ends
-constexpr double kSkinCover_m = 1.2e-3;  // the least depth of a muscle's surface
-constexpr double kCornerHalfWidth_m = 1.5e-3, kCornerOpening = 0.22;  // of the ring round the mouth
+constexpr double kEndThickness = 0.55;   // thickness at both ends / thickness of the belly
+constexpr double kSkinCover_m = 1.2e-3;  // minimum depth of a muscle below the skin surface
+constexpr double kCornerHalfWidth_m = 1.5e-3,
+                 kCornerOpening = 0.22;  // of the ring around the mouth
 constexpr const char* kUpperRing = "orbicularis_oris_upper_peripheral";
 constexpr const char* kLowerRing = "orbicularis_oris_lower_peripheral";
 
-// Where a path runs, and which way is out there.
+// A path with the outward direction at each point.
 struct Course {
     std::vector<Vec3> point, outward;
     std::vector<double> arc{};  ///< length up to each point
@@ -40,12 +41,12 @@ Course course_of(const rig::Head& head, const MusclePath& path, const std::strin
     return out;
 }
 
-// Places at equal steps of `share`, 0..1, of a curve's length.
+// Returns points at equal steps of arc length, `share` 0..1.
 Course sampled(const Course& through, const std::vector<double>& fractions, bool closed = false) {
     constexpr double kFine_m = 1e-3;
     std::vector<Vec3> control = through.point, fine;
     if (closed) {
-        // Once round with the neighbours on both sides, then the middle of it
+        // One closed turn with the neighbours on both sides, then its middle
         const std::size_t n = control.size();
         control.clear();
         for (std::size_t i = 0; i < n + 3; ++i) control.push_back(through.point[(i + n - 1) % n]);
@@ -68,7 +69,7 @@ Course sampled(const Course& through, const std::vector<double>& fractions, bool
                                                       1, arc.size() - 1);
         const double t = (s - arc[i - 1]) / (arc[i] - arc[i - 1]);
         const Vec3 p = (1 - t) * fine[i - 1] + t * fine[i];
-        // Outwards as at the points given, the nearer the more
+        // Outward direction: mean of those at the given points, weighted by nearness
         Vec3 outward = Vec3::Zero();
         for (std::size_t k = 0; k < through.point.size(); ++k)
             outward += through.outward[k] / ((p - through.point[k]).squaredNorm() + 1e-6);
@@ -86,7 +87,7 @@ double length_of(const Course& course) {
     return length;
 }
 
-// Cells along, across and through: about as long as wide, and no finer than a face can afford.
+// Numbers of cells along, across and through: cells about as long as wide, within the limits of computing time.
 std::array<int, 3> cells_of(const rig::SolidMuscle& solid, double length_m, double size) {
     const auto count = [&](int given, double extent_m, double edge_m, int min, int max) {
         return given > 0 ? given
@@ -133,7 +134,7 @@ class Placer {
     }
 
     double force_of(const rig::SolidMuscle& solid, const rig::Muscle& muscle) const {
-        // The scale makes up for what holds mimetic muscles back; the jaw's are those that its lines have.
+        // Mimetic muscles are scaled, since tissue holds them back; jaw muscles have the forces of their lines of action
         const double scale =
             muscle.group == "mimetic" ? rig_.tissue.force_scale : kJawForceFraction;
         return muscle.force_n * solid.strength * scale * head_.size * head_.size;
@@ -183,12 +184,12 @@ class Placer {
     Hold hold_of(const PathPoint& end, const std::string& group) const {
         if (end.attach == "bone" || end.body == PathPoint::Body::kMandible)
             return {true, end.body == PathPoint::Body::kMandible ? 1.0 : 0.0};
-        // The pterygomandibular raphe hangs between both bones.
+        // The pterygomandibular raphe spans both bones.
         if (end.attach == "raphe" && group == "mimetic" && !end.on_skin()) return {true, 0.5};
         return {};
     }
 
-    // Marks the nodes of a slab as what its end of the path is tied to.
+    // Marks what the nodes of an end slab are attached to.
     void tie(SolidNode& node, const Hold& hold) const {
         node.on_bone = hold.bone;
         node.soft_end = !hold.bone;
@@ -256,7 +257,7 @@ class Placer {
         out_.parts.push_back(std::move(made));
     }
 
-    // Between the paths of a sheet; at its borders half a path's distance further.
+    // Interpolates between the paths of a sheet and extends it by half the distance of two paths at its borders.
     void add_sheet_slab(const std::vector<Course>& along, const std::vector<std::size_t>& order,
                         std::size_t i, std::size_t before, std::size_t after, double half_width_m,
                         double half_thickness_m, const tissue::GridShape& grid) {
@@ -271,7 +272,7 @@ class Placer {
         };
         const double paths = static_cast<double>(order.size() - 1);
         const Vec3 low = at(0, point(i)), high = at(paths, point(i));
-        // Where paths meet, as in the corner of the mouth, the sheet keeps a third of its width
+        // Where paths meet, as at the corner of the mouth, the sheet keeps a third of its width
         const Vec3 out = at(0.5 * paths, [i](const Course& c) -> Vec3 { return c.outward[i]; });
         const Vec3 forward = at(0.5 * paths, point(after)) - at(0.5 * paths, point(before));
         const Vec3 sideways = out.cross(forward).normalized();
@@ -293,7 +294,7 @@ class Placer {
         }
     }
 
-    // Upper half from left to right, lower half back again; slab M - 1 of each is slab 0 of the other.
+    // The upper half runs from left to right, the lower half back; slab M - 1 of each is slab 0 of the other.
     void lay_ring(const rig::SolidMuscle& upper, const rig::SolidMuscle& lower) {
         const rig::Muscle& above = muscle_of(upper);
         const rig::Muscle& below = muscle_of(lower);
@@ -320,7 +321,7 @@ class Placer {
             const std::size_t before = static_cast<std::size_t>((m + slabs - 1) % slabs),
                               i = static_cast<std::size_t>(m), after = i + 1;
             const rig::SolidMuscle& solid = m < cells[0] ? upper : lower;
-            // Both halves meet in the corners at a sharp angle: there is room only for less
+            // Both halves meet in the corners at a sharp angle, where there is less room
             const double from_corner = std::min(
                 along.arc[i] - (m < cells[0] ? 0.0 : along.arc[static_cast<std::size_t>(cells[0])]),
                 (m < cells[0] ? along.arc[static_cast<std::size_t>(cells[0])] : along.arc.back()) -

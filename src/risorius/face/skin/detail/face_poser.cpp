@@ -40,7 +40,7 @@ LidPose FacePoser::lid(int side, const Eigen::VectorXd& activation,
         const int column = channels_.column(id, s);
         return column < 0 ? 0.0 : activation[column];
     };
-    // A lid falls when the levator lets go, is pressed shut by orbicularis, and opens wide with levator and tarsal muscle.
+    // A lid falls when the levator relaxes. Orbicularis presses it shut; levator and tarsal muscle open it wide.
     const double levator = of("levator_palpebrae_superioris");
     const double upper = of("orbicularis_oculi_palpebral_upper");
     const double lower = of("orbicularis_oculi_palpebral_lower");
@@ -48,7 +48,7 @@ LidPose FacePoser::lid(int side, const Eigen::VectorXd& activation,
     pose.upper_closure = std::min(1.0, 0.95 * std::max(0.0, -levator) + 0.2 * upper);
     pose.lower_closure = pose.upper_closure;
     pose.lower_lift = 0.22 * lower * (1.0 - pose.upper_closure);
-    // Orbicularis draws both lids towards the inner canthus it springs from.
+    // Orbicularis pulls both lids towards its origin at the inner canthus.
     pose.inward = pose.upper_closure * (0.5 + std::min(0.5, upper));
     constexpr double kDegree = 3.14159265358979323846 / 180.0;
     const double pitch =
@@ -86,7 +86,7 @@ Points FacePoser::skin_displacement(const Points& x) const {
     return displacement;
 }
 
-// The slope of a number by the vertices, through what rides on the skin, which moves each vertex by itself.
+// Transposes the motion of the parts that follow the skin; each of their vertices depends on itself alone.
 Points FacePoser::pull_through(const FollowDrive& drive, const Points& surface,
                                const Points& slope) const {
     constexpr double kDifference_m = 1e-6;

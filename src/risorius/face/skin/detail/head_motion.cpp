@@ -25,7 +25,7 @@ Rigid head_motion(const rig::Head& head, const track::Drive& drive) {
                                                  drive.at(Kinematic::kHeadForward)));
     motion.rotate(Eigen::AngleAxisd(drive.at(Kinematic::kHeadYaw) * kRadPerDeg, Vec3::UnitY()));
     motion.rotate(Eigen::AngleAxisd(-drive.at(Kinematic::kHeadPitch) * kRadPerDeg, Vec3::UnitX()));
-    // Tilting to the left lowers the left ear: a turn about the forward axis from left to down.
+    // A tilt to the left lowers the left ear: a rotation about the forward axis from left to down.
     motion.rotate(Eigen::AngleAxisd(-drive.at(Kinematic::kHeadRoll) * kRadPerDeg, Vec3::UnitZ()));
     motion.translate(-pivot);
     return motion;

@@ -10,10 +10,11 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kFar_mm = 12.0;  // deeper than this the lining does not come near the skin
-constexpr double kNear_mm = 0.3;  // this near it is the skin, turned in
+constexpr double kFar_mm = 12.0;  // lining deeper than this never reaches the skin
+constexpr double kNear_mm = 0.3;  // lining nearer than this is skin that turns inwards
 constexpr double kClearance_mm = 1.5;
-constexpr double kFacing = 0.6;  // cosine: the skin lies in front of the point, not beside it
+constexpr double kFacing =
+    0.6;  // minimum cosine: the skin must lie in front of the point, not beside it
 
 }  // namespace
 

@@ -13,17 +13,19 @@ namespace {
 
 constexpr double kSpacing_mm = 4.0;
 constexpr double kMinWidth_mm = 4.0;  // w, where the mesh is fine enough
-constexpr double kReach = 4.0;        // of w: beyond it less than 4 % is left
+constexpr double kReach =
+    4.0;  // reach of a ridge / w: beyond it less than 4 % of the height is left
 constexpr double kHighest_mm = 7.0;
-constexpr double kOffSkin_mm = 30.0;  // further from the skin than this there is no neck
+constexpr double kOffSkin_mm = 30.0;  // a mesh whose skin is farther away has no neck
 constexpr int kSmoothing = 6;
 constexpr double kFar = 1e9;
-constexpr double kLine_mm = 26.0;    // wavelength of the line of a border
-constexpr double kRidge = 1.4;       // of the height, where the mesh shows nothing of it
-constexpr double kLonger_mm = 24.0;  // down from where the fibres of the table begin
+constexpr double kLine_mm = 26.0;  // wavelength of the line of a border
+constexpr double kRidge =
+    1.4;  // depth of the line / height of the cord, where the mesh shows nothing of it
+constexpr double kLonger_mm = 24.0;  // added below the start of the fibres in the table
 
-// Which borders, by the way across the band towards the midline, in half widths of it; and the share of the muscle's force
-// that runs in each.
+// The borders: position across the band towards the midline, in half widths of the band, and the fraction of the muscle's force in
+// each.
 struct Border {
     double across, fraction;
     int slot;
@@ -46,7 +48,7 @@ std::vector<double> string_heights(const std::vector<Vec3>& stations,
     const std::size_t n = stations.size();
     std::vector<double> height(n, 0.0), factor(n, 0.0);
     if (tension_n <= 0) return height;
-    // Three-diagonal elimination from one end to the other
+    // Elimination of the tridiagonal system
     const double side = tension_n / (spacing_m * spacing_m);
     const double middle = 2 * side + bed_n_per_m2;
     for (std::size_t i = 1; i + 1 < n; ++i) {
@@ -62,7 +64,7 @@ std::vector<double> string_heights(const std::vector<Vec3>& stations,
 }
 
 PlatysmaCords::PlatysmaCords(const rig::Head& head, const rig::RigDescription& rig)
-    // A line pressed into soft tissue: about four times its shear modulus
+    // A line that is pressed into soft tissue feels about four times the shear modulus of the tissue
     : bed_n_per_m2_(4 * rig.tissue.superficial_shear_pa) {
     const track::ChannelTable channels = rig.channels();
     const auto front = std::find_if(rig.atlas.bands.begin(), rig.atlas.bands.end(),
@@ -76,7 +78,7 @@ PlatysmaCords::PlatysmaCords(const rig::Head& head, const rig::RigDescription& r
         std::vector<Vec3> centre;
         for (const rig::BandPoint& point : band.points)
             centre.push_back(head.landmark(point.landmark) + head.size * point.offset);
-        // The table's fibres begin where its atlas head ends
+        // The fibres of the table begin where the atlas head ends
         const Vec3 down = (centre[0] - centre[1]).normalized();
         const Vec3 lower = centre[0] + head.mm(kLonger_mm) * down;
         if (skin.closest(lower, head.mm(kOffSkin_mm))) centre.insert(centre.begin(), lower);
@@ -143,7 +145,7 @@ void PlatysmaCords::add(const rig::Head& head, const std::vector<Vec3>& along, i
     for (std::size_t i = 0; i < outward.size(); ++i)
         cord.stations[i].outward = outward[i].normalized();
 
-    // As narrow as a cord is, or as the mesh can show
+    // The width of a cord, or the minimum width that the mesh can show
     double edges = 0;
     for (const Station& station : cord.stations)
         for (int k = 0; k < 3; ++k)
@@ -185,7 +187,7 @@ void PlatysmaCords::add(const rig::Head& head, const std::vector<Vec3>& along, i
 }
 
 void PlatysmaCords::mark(WrinkleLines& lines) {
-    // Borders of both sides share a slot; a vertex belongs to the nearer one, and lines of its own come before it
+    // The borders of both sides share a slot. A vertex belongs to the nearer border; other lines of the slot have priority
     Points nearest = Points::Constant(lines.phase.rows(), kWrinkleSlots, kFar);
     const auto mine = [&](const Cord& cord, const Lifted& lifted) {
         return lines.window(lifted.vertex, cord.slot) == 0 &&

@@ -25,7 +25,7 @@ RigidFollowers::RigidFollowers(const rig::Head& head, const rig::RigDescription&
     const long count = head.vertices.rows();
     const std::vector<char> moving = binding.moving();
 
-    // Lids: skin near a margin rides on its tarsal plate, more firmly the nearer
+    // Lids: skin near a margin follows its tarsal plate, the more the nearer it is
     std::vector<int> skin_near_eye[2];
     for (long v = 0; v < count; ++v) {
         if (head.carrier[v] != rig::Carrier::kSkin) continue;
@@ -37,14 +37,14 @@ RigidFollowers::RigidFollowers(const rig::Head& head, const rig::RigDescription&
             skin_near_eye[side].push_back(static_cast<int>(v));
             const LidMember member = lids[side].member(p);
             const double weight = EyeLids::firmness(member, 0.15, 1.0, 0.08, 0.45);
-            // Never more than at rest, so that rest stays as it was imported
+            // The clearance is at most that of the rest shape, so that the rest shape does not change
             const double clearance =
                 std::min(head.eyes[side].distance(p, head.eyes[side].forward), head.mm(1.6));
             lid_vertices_.push_back({static_cast<int>(v), side, member, weight, clearance});
         }
     }
 
-    // Lashes: as the skin at their root, and on the tarsal plate
+    // Lashes follow the skin at their root, and the tarsal plate
     std::vector<int> lashes;
     for (long v = 0; v < count; ++v)
         if (head.carrier[v] == rig::Carrier::kLashes) lashes.push_back(static_cast<int>(v));
@@ -125,7 +125,7 @@ void RigidFollowers::apply_lids(const FollowDrive& drive, Points& vertices) cons
             vertices.row(v) = (1 - lid.weight) * vertices.row(v) + lid.weight * ride.transpose();
         }
         if (lid.clearance == kNotKept) continue;
-        // The lid slides over the cornea: it is lifted where the eye's surface comes closer than at rest
+        // The lid slides over the cornea: it is lifted where the surface of the eye is nearer than at rest
         const rig::EyeGeometry& eye = head_.eyes[lid.side];
         const Vec3 p = vertices.row(v).transpose();
         const double lift = lid.clearance - eye.distance(p, drive.gaze[lid.side] * eye.forward);

@@ -7,13 +7,13 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kLid_mm = 6.0;  // lids near their margins ride on the tarsal plate
+constexpr double kLid_mm = 6.0;  // lids follow the tarsal plate near their margins
 
-// How firmly the skin sits on the tissue that carries it: on the fat between it and the middle layer, and through it on
-// the ligaments.
+// Returns the stiffness of the bed of the skin at each vertex, Pa/m: the fat between skin and middle layer plus the ligaments below.
 std::vector<double> bed(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
                         const Shell& shell, const TissueMesh& mesh) {
-    const double young_pa = 3 * rig.tissue.superficial_shear_pa;  // of what hardly changes volume
+    const double young_pa =
+        3 * rig.tissue.superficial_shear_pa;  // Young modulus of nearly incompressible tissue
     std::vector<double> of_shell(shell.vertex.size());
     for (std::size_t v = 0; v < of_shell.size(); ++v)
         of_shell[v] = young_pa / (kMiddleDepth * mesh.thickness_m[v]);

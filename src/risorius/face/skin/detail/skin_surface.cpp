@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kSteps = 2;
 constexpr double kMinArea_m2 = 1e-12;
-// Of a membrane stretched by half the curvature is three times that at rest; the matrix has twice, as steps may be too
-// long by two.
+// A membrane stretched by half has three times its curvature at rest. The matrix has twice that at rest, since steps may be too long by
+// a factor of two.
 constexpr int kStretchReserve = 2;
 
 }  // namespace

@@ -6,9 +6,9 @@
 ///
 ///   E(x) = sum K A/2 |x - p|^2 + membrane and bending of tissue/skin_sheet.h about the rest shape of the mesh
 ///
-/// The bed is felt from afar: what the coarse tissue does within (B/K)^(1/4), some 2 mm, the skin evens out, turning with
-/// it (E does not change when the face turns), so that features of the rest shape stay. x starts at p and takes a fixed
-/// number of steps with one prefactored matrix; at p = X it stays there.
+/// The skin evens out the motion of the coarse tissue over lengths below (B/K)^(1/4), about 2 mm (B: bending stiffness). E does not change
+/// when the face rotates, so features of the rest shape are kept. The minimisation starts at x = p and takes a fixed number of steps with
+/// one prefactored matrix; at p = X it does not move.
 #pragma once
 
 #include <optional>
@@ -34,7 +34,7 @@ class SkinSurface {
     /// Vertices on the border of the triangles are held too. Triangles without area are left out.
     explicit SkinSurface(const SkinSheetOnBed& sheet);
 
-    /// V x 3: from the positions to which the tissue carries the vertices to those of the skin, m. Not for several threads at once.
+    /// Converts the positions of the vertices on the tissue, p, to those of the skin, V x 3, m. One thread at a time.
     void relax(Points& vertices) const;
 
     int vertices() const { return static_cast<int>(vertex_.size()); }

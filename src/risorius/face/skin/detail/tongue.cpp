@@ -10,11 +10,11 @@ namespace risorius::face {
 
 namespace {
 
-constexpr int kPieces = 24;           // of the middle line, less one
-constexpr double kTipUp_rad = 1.1;    // how far the blade curls
-constexpr double kOverLip_rad = 0.6;  // by which it hangs over the lower lip when it is all out
-constexpr double kFlattest = 0.35;    // of its thickness at rest, between teeth
-constexpr double kEngaged = 0.2;      // protrusion from which teeth and lips guide it fully
+constexpr int kPieces = 24;           // segments of the middle line; it has one sample more
+constexpr double kTipUp_rad = 1.1;    // maximum curl of the blade
+constexpr double kOverLip_rad = 0.6;  // angle over the lower lip at full protrusion
+constexpr double kFlattest = 0.35;    // minimum thickness between teeth / thickness at rest
+constexpr double kEngaged = 0.2;      // protrusion above which teeth and lips guide it fully
 
 double forward_angle(const Vec3& tangent) { return std::atan2(tangent.y(), tangent.z()); }
 
@@ -29,7 +29,7 @@ Vec3 Tongue::Line::at(double along) const {
 }
 
 Vec3 Tongue::Line::tangent(double along) const {
-    // Over a tenth of the line, so that neighbours turn alike
+    // Smoothed over a tenth of the line, so that neighbours rotate alike
     Vec3 t = at(along + 0.1) - at(along - 0.1);
     t.x() = 0;
     return t.normalized();
@@ -47,7 +47,7 @@ Tongue::Tongue(const rig::Head& head, double range_m) : head_(head), range_m_(ra
     if (vertices.empty()) return;
     length_m_ = std::max(1e-6, front - back);
 
-    // Middle line: heights of slices, smoothed; jaw share of the same
+    // Middle line: smoothed heights of slices, and their smoothed fractions of the motion of the jaw
     std::vector<double> height(kPieces + 1), weight(kPieces + 1);
     over_jaw_.assign(kPieces + 1, 0);
     for (int k = 0; k <= kPieces; ++k)
@@ -79,7 +79,7 @@ Tongue::Tongue(const rig::Head& head, double range_m) : head_(head), range_m_(ra
     }
     thickness_m_ = std::max(1e-4, high - low);
 
-    // Edges of the incisors: the foremost of what bone carries at the midline; without teeth, behind the lips
+    // Edges of the incisors: the foremost points on bone at the midline. Without teeth they lie behind the lips
     const Vec3 lips = 0.5 * (head.landmark("stos") + head.landmark("stoi"));
     const auto edge = [&](bool lower) {
         Vec3 best = lips - Vec3(0, 0, head.mm(8));
@@ -124,7 +124,7 @@ Tongue::Tongue(const rig::Head& head, double range_m) : head_(head), range_m_(ra
 
 Tongue::Gate Tongue::teeth(const Rigid& mandible) const {
     const Vec3 lower = mandible * lower_edge_;
-    // Closed incisors overlap: between them there is no room at all
+    // Closed incisors overlap and leave no room
     return {lower.y(), std::max(upper_edge_.y(), lower.y()), 0.5 * (lower.z() + upper_edge_.z())};
 }
 
@@ -158,7 +158,7 @@ void Tongue::place(const TongueDrive& drive, Points& vertices) const {
     Line line = bent(drive, out);
     std::vector<double> flat(kPieces + 1, 1.0);
     if (out > 0) {
-        // Through the gates, teeth then lips: shifted to fit between, and as flat as they are apart
+        // At the teeth and then at the lips, the tongue is shifted into the gap and flattened to its height
         const double engaged = geom::smoothstep(0, kEngaged, out);
         Gate lips{-1e300, 1e300, 0};
         if (!lower_lip_.empty() && !upper_lip_.empty())
@@ -170,12 +170,12 @@ void Tongue::place(const TongueDrive& drive, Points& vertices) const {
         for (const Gate& gate : {teeth(drive.mandible), lips}) {
             int k = 0;
             while (k <= kPieces && line.point[static_cast<std::size_t>(k)].z() < gate.z) ++k;
-            if (k > kPieces) break;  // the tip is not there yet
+            if (k > kPieces) break;  // the tip has not reached this gap
             const double gap = std::max(0.0, gate.upper_y - gate.lower_y);
             flattest = std::min(flattest, std::clamp(0.9 * gap / thickness_m_, kFlattest, 1.0));
             const double half = std::min(0.5 * gap, 0.5 * flattest * thickness_m_);
             const double y = line.point[static_cast<std::size_t>(k)].y();
-            // Shut lips or teeth: over the lower ones
+            // Closed lips or teeth: the tongue lies on the lower ones
             const double by = std::max(gate.lower_y + half, std::min(gate.upper_y - half, y)) - y;
             for (int i = 0; i <= kPieces; ++i) {
                 const auto j = static_cast<std::size_t>(i);

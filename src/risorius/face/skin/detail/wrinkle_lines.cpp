@@ -17,24 +17,24 @@ namespace risorius::face {
 namespace {
 
 constexpr double kMinWindow = 1e-3;
-constexpr double kFadeSpacing_mm = 11.0;  // of the random depth along lines
-constexpr double kFibreSpread_mm = 6.0;   // of the mean over fibres near a point
+constexpr double kFadeSpacing_mm = 11.0;  // spacing of the random depth along lines
+constexpr double kFibreSpread_mm = 6.0;   // radius of the mean over fibres near a point
 constexpr double kPathSpacing_mm = 4.0;
 
-// A piece of a fibre: where, and which way.
+// A segment of a fibre: position and direction.
 struct FibrePiece {
     Vec3 at, along;
 };
 
-// One set of lines on a head. `table` is what the rig's table says of it.
+// One set of lines on a head. `table` is its row in the table of the rig.
 struct Pattern {
     const rig::WrinklePattern* table = nullptr;
-    Side side = Side::kLeft;  // of a pattern of each side
+    Side side = Side::kLeft;  // if the pattern exists on each side
     double wavelength_m = 0;
-    double fraction = 1;                  // of the depth, for the age of the skin
-    std::vector<FibrePiece> fibres = {};  // pulling across the lines
-    Vec3 anchor = Vec3::Zero();           // where the phase is table->anchor_phase
-    std::vector<Vec3> crease = {};        // instead of fibres: the line itself
+    double fraction = 1;                  // fraction of the depth at the age of the skin
+    std::vector<FibrePiece> fibres = {};  // they pull across the lines
+    Vec3 anchor = Vec3::Zero();           // the phase here is table->anchor_phase
+    std::vector<Vec3> crease = {};        // the line itself, instead of fibres
 
     double sign() const { return side == Side::kLeft ? 1.0 : -1.0; }
     const Vec3& at(const rig::Head& head, const std::string& id) const {
@@ -42,7 +42,7 @@ struct Pattern {
     }
 };
 
-// Height of p over a line from left to right through the points, seen from the front.
+// Returns the height of p over the polyline through the points, seen from the front, m.
 double height_over(const Vec3& p, const std::vector<Vec3>& line) {
     if (p.x() >= line.front().x()) return p.y() - line.front().y();
     for (std::size_t i = 0; i + 1 < line.size(); ++i)
@@ -78,7 +78,7 @@ void add_fibres(const rig::Head& head, const rig::Atlas& atlas, const std::strin
     }
 }
 
-// Value of one end of a smooth step, m.
+// Returns the value of one end of a smooth step, m.
 double bound_of(const rig::Head& head, const Pattern& pattern, const rig::WrinkleBound& bound) {
     const double sign = bound.axis == 0 ? pattern.sign() : 1.0;
     double value = 0;
@@ -95,7 +95,7 @@ double bound_of(const rig::Head& head, const Pattern& pattern, const rig::Wrinkl
     return value;
 }
 
-// A factor of a window with what does not depend on the point of the skin.
+// A factor of a window, with all that does not depend on the point of the skin.
 struct PlacedFactor {
     const rig::WrinkleFactor* table;
     double from, to;         // m, or rad
@@ -115,7 +115,7 @@ PlacedFactor place_factor(const rig::Head& head, const Pattern& pattern,
     return out;
 }
 
-// The quantity of a point of the skin that a factor is a step of, m or rad.
+// Returns the quantity of a point of the skin that the smooth step of a factor depends on, m or rad.
 double quantity_at(const Vec3& p, const PlacedFactor& factor, const Pattern& pattern) {
     using Of = rig::WrinkleFactor::Of;
     const Vec3& point = factor.point;
@@ -145,7 +145,7 @@ double quantity_at(const Vec3& p, const PlacedFactor& factor, const Pattern& pat
     return 0;
 }
 
-// Where the lines of a pattern belong, 0..1, of every vertex of the skin.
+// Returns the window of a pattern at every vertex of the skin, 0..1.
 std::vector<double> window_of(const rig::Head& head, const Triangles& skin,
                               const Pattern& pattern) {
     std::vector<PlacedFactor> factors;
@@ -192,7 +192,7 @@ Pattern place_pattern(const rig::Head& head, const rig::Atlas& atlas, double age
     return out;
 }
 
-// The patterns of a head of this age: those that are there once, then those of the left side, then those of the right side.
+// Returns the patterns of a head of this age: patterns across the midline, then those of the left, then those of the right side.
 std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas, double age) {
     std::vector<Pattern> out;
     const auto add = [&](bool each_side, Side side) {
@@ -206,7 +206,7 @@ std::vector<Pattern> patterns_of(const rig::Head& head, const rig::Atlas& atlas,
     return out;
 }
 
-// Smooth noise in space, about -1..1, the same on every machine.
+// Returns smooth noise at a point, about -1..1. It is the same on every machine.
 double noise(const Vec3& p) {
     const auto value = [](long x, long y, long z) {
         auto seed = static_cast<std::uint32_t>(x * 73856093L ^ y * 19349663L ^ z * 83492791L);
@@ -230,7 +230,7 @@ double noise(const Vec3& p) {
     return sum;
 }
 
-// Where along the line the point of it lies that is nearest to p, m.
+// Returns the arc length of the point of the line that is nearest to p, m.
 double place_on(const Vec3& p, const std::vector<Vec3>& line) {
     const geom::PolylinePoint nearest = geom::nearest_on_polyline(p, line);
     double place = 0;
@@ -238,7 +238,7 @@ double place_on(const Vec3& p, const std::vector<Vec3>& line) {
     return place + nearest.fraction * (line[nearest.piece + 1] - line[nearest.piece]).norm();
 }
 
-// Signed distance from the crease, positive to the outside of the face.
+// Returns the signed distance from the crease, m, positive towards the outside of the face.
 double across_crease(const Vec3& p, const std::vector<Vec3>& line) {
     double best = 1e300, side = 1;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -252,10 +252,10 @@ double across_crease(const Vec3& p, const std::vector<Vec3>& line) {
     return side * std::sqrt(best);
 }
 
-// Whose phase a vertex has in each slot, -1 nobody's.
+// Per vertex and slot, the pattern that its phase belongs to, or -1.
 using Owners = std::vector<std::array<int, kWrinkleSlots>>;
 
-// The phase of one pattern on the triangles that its window touches.
+// Computes the phase of one pattern on the triangles that its window touches.
 void lay(const rig::Head& head, const Triangles& skin, const Pattern& pattern,
          const std::vector<double>& window, int index, double age, WrinkleLines& lines,
          Owners& owner) {
@@ -290,7 +290,7 @@ void lay(const rig::Head& head, const Triangles& skin, const Pattern& pattern,
             const double area = 0.5 * twice.norm();
             if (area < 1e-12) continue;
             const Vec3 normal = twice / (2 * area), centre = (a + b + c) / 3;
-            // The far ones count for a little too, so that there always is a direction
+            // Far fibres have a small weight too, so that there is always a direction
             Vec3 pull = Vec3::Zero();
             for (const FibrePiece& fibre : pattern.fibres) {
                 const double far = (fibre.at - centre).squaredNorm() / (2 * spread * spread);
@@ -313,7 +313,7 @@ void lay(const rig::Head& head, const Triangles& skin, const Pattern& pattern,
         }
         for (int i = 0; i < count; ++i) laplacian.add_diagonal(i, 1e-8);
         solve::SparseCholesky(laplacian.build({})).solve(right, phase);
-        // Valleys where they are wanted
+        // Shifts the phase so that valleys lie where the table wants them
         int nearest = 0;
         for (int i = 1; i < count; ++i)
             if ((at(vertex[i]) - pattern.anchor).squaredNorm() <
@@ -370,7 +370,7 @@ WrinkleLines lay_wrinkle_lines(const rig::Head& head, const rig::RigDescription&
         }
         lay(head, skin, pattern, window, index++, rig.appearance.age, lines, owner);
     }
-    // Where two patterns of a slot meet, a triangle would run through the phases of both
+    // Where two patterns of a slot meet, the phase within a triangle would run from one to the other
     for (long f = 0; f < skin.rows(); ++f)
         for (int slot = 0; slot < kWrinkleSlots; ++slot) {
             const int a = owner[skin(f, 0)][slot], b = owner[skin(f, 1)][slot],

@@ -13,14 +13,16 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kRounding = 0.2;  // of the valleys; shader_skin.cpp draws the same profile
-constexpr double kLineVariation = 0.4, kUnlikeTurn = 2.4;  // of lines, likewise
+constexpr double kRounding =
+    0.2;  // rounding of the valleys; shader_skin.cpp draws the same profile
+constexpr double kLineVariation = 0.4,
+                 kUnlikeTurn = 2.4;     // variation between lines, as in shader_skin.cpp
 constexpr double kSteepestFold = 0.45;  // depth / span: folds steeper than this close
-// Edges per wave from which on vertices carry the fold, and all of it
+// Edges per wavelength at which vertices start to carry the fold, and at which they carry all of it
 constexpr double kFirstResolved = 6, kResolved = 10;
-constexpr double kStays = 0.09;  // compression, of skin of 80 years
+constexpr double kStays = 0.09;  // compression of the permanent lines of skin aged 80
 constexpr int kSamples = 64;
-constexpr double kStripPiece = 0.25;  // of a crease's mean, one piece of it
+constexpr double kStripPiece = 0.25;  // length of a piece of a strip / averaging length of a crease
 
 double profile_slope(double phase) {
     const double s = std::sin(std::numbers::pi * phase), c = std::cos(std::numbers::pi * phase);
@@ -37,7 +39,7 @@ double ridge() {
     return over_mean;
 }
 
-// Depth by the root of the excess, in which it is almost linear.
+// Tabulates depth over the square root of the excess, in which it is almost linear.
 struct DepthTable {
     static constexpr double kLongest = 1.2;  // root of the excess
     std::array<double, kSamples + 1> ratio;
@@ -86,7 +88,7 @@ double folded_fraction(double compression, const FoldOnset& onset) {
     const double over = compression - onset.at, softness = onset.softness;
     if (over <= -softness) return 0;
     if (over >= softness) return over;
-    // As the depth goes with its root, it has to begin with a fourth power for wrinkles to come without a jerk
+    // Depth varies with the square root of e. So e starts with a fourth power, which lets wrinkles appear smoothly
     const double t = (over + softness) / (2 * softness);
     return softness * t * t * t * t * (3 - 2 * t);
 }
@@ -94,7 +96,7 @@ double folded_fraction(double compression, const FoldOnset& onset) {
 Wrinkles::Wrinkles(const WrinkleLines& lines, const Triangles& skin, const Points& rest,
                    const WrinkleOptions& options)
     : options_(options) {
-    // The part of the skin that has lines
+    // Vertices and triangles of the skin that have lines
     std::vector<int> own(static_cast<std::size_t>(rest.rows()), -1);
     std::vector<long> faces;
     for (long f = 0; f < skin.rows(); ++f) {
@@ -123,7 +125,7 @@ Wrinkles::Wrinkles(const WrinkleLines& lines, const Triangles& skin, const Point
         if (lines.at_rest.size() > 0) stays_.row(i) = kStays * lines.at_rest.row(vertex_[i]);
     }
 
-    // Strain gauges across the lines, and the mean over their surroundings
+    // Strain gauges across the lines, and the operator of the local mean
     const auto at = [&](int v) { return Vec3(rest.row(v).transpose()); };
     Points gauged = Points::Zero(count, 3);
     area_ = Eigen::VectorXd::Zero(count);
@@ -187,7 +189,7 @@ Wrinkles::Wrinkles(const WrinkleLines& lines, const Triangles& skin, const Point
         }
 }
 
-// A kernel over the pieces of the strip, and how much skin is in each.
+// Averages over the pieces of the strip, weighted by a kernel and the area of skin in each.
 void Wrinkles::mean_along(const Crease& crease, const std::vector<int>& own) {
     Strip strip{.slot = crease.slot, .row = {}, .place = {}, .mean = {}};
     const double piece = kStripPiece * options_.mean_along_crease_m;

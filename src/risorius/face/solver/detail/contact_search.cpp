@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kCandidates = 40;
 constexpr double kFarEnough_m = 3e-3;
-constexpr double kLipStiffness = 2.0;  // of lip against lip, over that against bone
-constexpr double kStick_pa = 150;  // saliva between lips, of each lip: a bridge some 0.5 mm wide
+constexpr double kLipStiffness = 2.0;  // of lip on lip / of lip on bone
+constexpr double kStick_pa = 150;  // saliva between the lips, per lip: a bridge about 0.5 mm wide
 
 std::vector<int> nearest(const Vec3& p, const auto& points) {
     std::vector<std::pair<double, int>> order;
@@ -43,7 +43,7 @@ ContactSearch::ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell&
         const Vec3 deep = mesh.nodes.row(node_of(v, kDeep)).transpose();
         const Vec3 skin = mesh.nodes.row(node_of(v, kSkin)).transpose();
         if (geom::distance_to_polyline(skin, lips) < head.mm(60)) {
-            // There is bone and teeth above the bite and, below it, as far as the mandible's border; the neck has none.
+            // Bone and teeth reach down to the border of the mandible; the neck has none
             const double fraction = jaw.weight(skin, shell.over_bite_m[v]);
             const bool above_bite = shell.over_bite_m[v] > 0;
             if (above_bite && fraction < 0.6) skull_.push_back({deep, mesh.direction[v]});
@@ -127,8 +127,8 @@ std::vector<tissue::Contacts::Contact> ContactSearch::find(const Points& x, cons
     return std::move(search.found);
 }
 
-// The plane blended from the bone points around a point p. Nothing here may depend on which point is the nearest: planes that
-// jump keep a held pose from coming to equilibrium.
+// Returns the plane blended from the bone points around p. It must not depend on which point is the nearest: planes that jump keep a
+// held pose from reaching equilibrium.
 ContactSearch::BonePoint ContactSearch::blended_plane(const Vec3& p, double reach,
                                                       const std::vector<int>& candidates,
                                                       const std::vector<BonePoint>& bone) {
@@ -156,8 +156,8 @@ ContactSearch::BonePoint ContactSearch::blended_plane(const Vec3& p, double reac
     return {point, normal};
 }
 
-// Bone and teeth. The plane fades out beyond the bone's edge, where it means nothing: a chin that has dropped is not below the
-// upper teeth.
+// Bone and teeth. The plane fades out beyond the edge of the bone, where it stands for nothing: a lowered chin is not below the upper
+// teeth.
 void ContactSearch::find_bone(const DeepNode& node, int body, int slot, Search& search) const {
     const bool carried = body == kMandibleBody;
     const std::vector<int>& candidates = carried ? node.mandible : node.skull;
@@ -169,8 +169,8 @@ void ContactSearch::find_bone(const DeepNode& node, int body, int slot, Search& 
         blended_plane(p, node.reach, candidates, carried ? mandible_ : skull_);
     const double gap = (p - point).dot(normal);
     const double rest_gap = std::min(0.0, (rest - point).dot(normal));
-    if (gap - rest_gap > kFarEnough_m) return;  // too far to matter within one step
-    // Within the bone the blended point lies below the node, beyond its edge it stays behind
+    if (gap - rest_gap > kFarEnough_m) return;  // too far to be reached within one step
+    // Above bone the blended point lies below the node; beyond the edge it stays behind
     const double aside = (p - point - (p - point).dot(normal) * normal).norm();
     const double inside = 1.0 - geom::smoothstep(1.2 * node.reach, 1.7 * node.reach, aside);
     if (inside <= 0) return;
@@ -186,7 +186,7 @@ void ContactSearch::find_bone(const DeepNode& node, int body, int slot, Search& 
     search.found.push_back(contact);
 }
 
-// The normals of a lip, which turn with the columns of its nodes.
+// Returns the normals of a lip, one per node. They turn with the columns of the nodes.
 std::vector<Vec3> ContactSearch::turned_normals(const std::vector<LipNode>& lip, const Points& x) {
     std::vector<Vec3> turned;
     for (const LipNode& node : lip) {
@@ -196,7 +196,7 @@ std::vector<Vec3> ContactSearch::turned_normals(const std::vector<LipNode>& lip,
     return turned;
 }
 
-// The nearest few nodes of a lip and one more, nearest first: squared distance, index.
+// Returns the kLipNeighbours + 1 nearest nodes of a lip, nearest first: squared distance, index.
 ContactSearch::NearestFew ContactSearch::nearest_few(const Vec3& p, const std::vector<LipNode>& lip,
                                                      const Points& x) {
     NearestFew out;
@@ -211,7 +211,7 @@ ContactSearch::NearestFew ContactSearch::nearest_few(const Vec3& p, const std::v
     return out;
 }
 
-// Each node of a lip against the plane of the nearest nodes of the other lip, `facing` its normals.
+// Pairs each node of a lip with the plane of the nearest nodes of the other lip, whose normals are `facing`.
 void ContactSearch::find_lip(const std::vector<LipNode>& lip, const std::vector<LipNode>& other,
                              const std::vector<Vec3>& facing, int first_slot,
                              Search& search) const {
@@ -236,7 +236,7 @@ void ContactSearch::find_lip_node(const LipNode& node, const std::vector<LipNode
     double weights = 0, stiffness = 0;
     for (std::size_t k = 0; k < kLipNeighbours; ++k) {
         const LipNode& o = other[nearest[k].second];
-        // The weight of one that is about to be replaced is zero
+        // The weight of a node that is about to be replaced is zero
         const double fraction = 1.0 - nearest[k].first / nearest[kLipNeighbours].first;
         const double w = std::max(fraction * fraction, 1e-12);
         contact.others[k] = o.node;
@@ -260,11 +260,11 @@ void ContactSearch::find_lip_node(const LipNode& node, const std::vector<LipNode
     inside *= beside(off, contact.normal, lip_aside_m_);
     if (inside <= 0) return;
     contact.count = kLipNeighbours;
-    // Whole for all that are inside at rest, or rest would not be free of force
+    // Nodes that are inside at rest keep their full plane, otherwise there would be a force at rest
     contact.rest_gap_m =
         beside(rest_off, rest_normal, 2 * lip_aside_m_) * std::min(0.0, rest_off.dot(rest_normal));
     if (off.dot(contact.normal) - contact.rest_gap_m > kFarEnough_m) return;
-    // Weighted like the plane: a stiffness that depended on which nodes are nearest would jump as lips slide
+    // The stiffness is weighted like the plane: if it depended on which nodes are nearest, it would jump as lips slide
     contact.stiffness_n_per_m =
         inside * kLipStiffness * std::min(node.stiffness, stiffness / weights);
     contact.fraction = inside;
@@ -275,7 +275,7 @@ void ContactSearch::find_lip_node(const LipNode& node, const std::vector<LipNode
     search.found.push_back(contact);
 }
 
-// Lids: a plane across the way out of the eye, where its surface lies below the node.
+// Lids: a plane across the radius of the eye, where the surface of the eye lies below the node.
 void ContactSearch::find_lids(int first_slot, Search& search) const {
     for (std::size_t n = 0; n < lid_.size(); ++n) {
         const LidNode& node = lid_[n];

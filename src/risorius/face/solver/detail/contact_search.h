@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Finds contact pairs once per step, to be frozen for the length of a solve: deep tissue and lips against bone and teeth
-/// (skull and mandible apart), upper lip against lower, lids against the eyeball.
+/// Finds the contact pairs of the face: deep tissue and lips against skull, mandible and teeth, upper lip against lower lip, lids
+/// against the eyeball. A solve keeps the pairs that were found before it.
 ///
-/// The penetration every pair has at rest is subtracted, so that rest is free of force. Planes are blended from the points
-/// around, so that they move smoothly as tissue slides over them: taking the nearest alone makes held poses tremble.
-/// The lips' planes turn with the lips: a rim faces the other rim, red lip faces forward. A plane stands for what lies in
-/// front of it only, so that a lip may tuck in behind the other.
+/// The penetration of a pair at rest is subtracted, so that there is no force at rest. Contact planes are blended from several points
+/// of the surface, so that they turn smoothly as tissue slides over it; with the nearest point alone, held poses tremble. The planes
+/// of the lips turn with the lips: a rim faces the other rim, the red lip faces forward. A plane acts only on what lies in front of
+/// it, so that one lip can move behind the other.
 #pragma once
 
 #include <array>
@@ -31,17 +31,17 @@ class ContactSearch {
     ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell& shell, const TissueMesh& mesh,
                   const std::array<EyeLids, 2>& lids, double stiffness_pa_per_m);
 
-    /// Pairs for node positions x with the mandible moved.
-    /// `gaze`: turn of each eye, whose cornea bulges. `of`: rows of x whose pairs are wanted; empty: all.
+    /// Returns the pairs at node positions x, n x 3, m. `mandible` is its motion from rest, `gaze` the rotation of each eye, whose
+    /// cornea bulges. `of` flags the rows of x whose pairs are wanted; if it is empty, all are.
     std::vector<tissue::Contacts::Contact> find(const Points& x, const Rigid& mandible,
                                                 const std::array<Mat3, 2>& gaze,
                                                 const std::vector<char>& of = {}) const;
 
-    /// Nodes that may ever touch something and the greatest stiffness they may see, for the constant metric.
+    /// Nodes that may ever touch something, and the maximum contact stiffness of each, N/m. For the constant metric.
     const std::vector<int>& nodes() const { return nodes_; }
     const std::vector<double>& node_stiffness() const { return node_stiffness_; }
 
-    /// Deepest penetration of the pairs, m; of those with the bodies from `first` to `last` only.
+    /// Returns the maximum penetration of the pairs whose body is in `first`..`last`, m.
     static double deepest(const std::vector<tissue::Contacts::Contact>& pairs, const Points& x,
                           int first = 0, int last = kLipBody);
 
@@ -52,11 +52,11 @@ class ContactSearch {
     struct DeepNode {
         int node;
         double stiffness;
-        double reach;                      // how far a plane stands for the bone around it, m
+        double reach;                      // radius of the bone that its plane stands for, m
         std::vector<int> skull, mandible;  // nearest bone points at rest
     };
     struct LipNode {
-        int node, deep;  // the ends of its column
+        int node, deep;  // skin end and deep end of its column
         double stiffness, stick;
         Vec3 normal, column;  // at rest
     };

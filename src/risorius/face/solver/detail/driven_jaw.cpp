@@ -11,9 +11,9 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kRestStep_s = 0.5;        // of the steps of time towards rest
-constexpr int kIterationsOfRestStep = 20;  // of each, between searches for contacts
-constexpr double kRests_m = 5e-6;          // when such a step moves less, RMS
+constexpr double kRestStep_s = 0.5;        // length of the time steps towards equilibrium
+constexpr int kIterationsOfRestStep = 20;  // per step; each step searches contacts once
+constexpr double kRests_m = 5e-6;          // equilibrium: a step moves the nodes less, RMS
 constexpr double kRestTolerance_m = 1e-6;
 constexpr int kRestMemory = 6;
 constexpr double kRestStepCap_m = 6e-3;
@@ -29,14 +29,14 @@ void DrivenJaw::drive_by(track::JawDrive by, const track::ChannelTable& channels
         dynamics_.reset();
         synergies_.reset();
     } else if (!dynamics_) {
-        std::set<std::string> solids;  // they pull for themselves
+        std::set<std::string> solids;  // these pull in the tissue, not in JawDynamics
         for (const rig::SolidMuscle& solid : rig_.solids) solids.insert(solid.muscle);
         dynamics_.emplace(head_, rig_, solids);
         for (const double h : {step_s, kRestStep_s}) tissue.prepare(h, *dynamics_);
         const auto reach = [&](double open, double forward, double side) {
             return joint_.place(jaw_.motion(open, forward, side));
         };
-        // Groups are found with lines for all muscles: what a solid does in their place is about the same
+        // The synergies are computed with lines of action for all muscles; a volume muscle acts nearly like its line
         synergies_.emplace(JawDynamics(head_, rig_), channels,
                            JawSynergies::Ranges{reach(1, 0, 0).open_m, reach(0, 1, 0).forward_m,
                                                 reach(0, 0, 1).side_m},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The mandible of a face: placed by channels, or moved by its muscles within the steps of the tissue, which it then carries and is
-/// held by.
+/// The mandible of a face. Either the channels of the jaw place it, or its muscles move it within the steps of the tissue; jaw and
+/// tissue then act on each other.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,10 +25,11 @@ namespace risorius::face {
 
 class DrivenJaw {
   public:
-    /// Keeps references: all arguments must outlive it. Placed by channels until told otherwise.
+    /// Keeps references: all arguments must outlive it. At first channels place the jaw.
     DrivenJaw(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw);
 
-    /// `step_s`: of the steps that the tissue is going to make. Leaves the tissue prescribed at rest where muscles move the jaw.
+    /// `step_s` is the length of the steps that the tissue will make. If muscles move the jaw, the boundary conditions of the tissue
+    /// are those of rest afterwards.
     void drive_by(track::JawDrive by, const track::ChannelTable& channels, double step_s,
                   FaceTissue& tissue);
     bool by_muscles() const { return dynamics_.has_value(); }
@@ -36,30 +37,32 @@ class DrivenJaw {
     /// Throws std::logic_error where channels place the jaw.
     void set_bite_block(double height_m);
 
-    /// Where the channels want it.
+    /// Returns the motion from rest that the channels ask for.
     Rigid wanted(const track::Drive& drive) const;
-    /// Where it is, at q, or where the drive wants it.
+    /// Returns the motion from rest: at coordinates q if muscles move the jaw, otherwise the one that the channels ask for.
     Rigid motion(const JawVector& q, const track::Drive& drive) const;
-    /// Per column, with what the channels of the jaw ask of muscles that move it.
+    /// Returns the excitation per column. If muscles move the jaw, it contains what the channels of the jaw ask of them.
     Eigen::VectorXd excitation(const Eigen::VectorXd& excitation, const track::Drive& drive) const;
 
-    /// One step of the tissue, and of the jaw, from `state` to `state`, if muscles move it; `jaw_h` is the jaw's own.
+    /// Solves one step of the tissue of length h, s. If muscles move the jaw, it is part of the solve: `state` is advanced by a step
+    /// of length `jaw_h`, s. The other arguments are those of FaceTissue::implicit_step().
     StepStats implicit_step(FaceTissue& tissue, double h, double jaw_h, const Points& start,
                             const Points& aim, const Eigen::VectorXd& activation,
                             const JawDynamics::Carriage& carriage,
                             const solve::QuasiNewtonOptions& options, Points& x,
                             JawDynamics::State& state,
                             std::span<const Points> warm_start = {}) const;
-    /// Tissue and a jaw that muscles move come to rest together, in long steps of time.
+    /// Finds the equilibrium of the tissue together with a jaw that muscles move, by long time steps.
     StepStats solve_equilibrium(FaceTissue& tissue, const Eigen::VectorXd& activation,
                                 const Vec3& gravity_m_s2, const StaticOptions& options, Points& x,
                                 JawDynamics::State& state) const;
 
-    /// Length and isometric force of the jaw muscle of a column, at q; nothing while channels place the jaw, and for other columns.
+    /// Returns length and isometric force of the jaw muscle of a column, at q; nothing for other columns and while channels place
+    /// the jaw.
     std::optional<muscle::ChainSet::State> muscle_state(int column, const JawVector& q,
                                                         double activation) const;
 
-    /// What only a jaw that muscles move can tell.
+    /// Writes tooth force and opening into the pose if muscles move the jaw.
     void report(const JawVector& q, FacePose& pose) const;
 
   private:

@@ -9,10 +9,10 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kDifference = 2e-4;  // of a parameter's range
+constexpr double kDifference = 2e-4;  // step of difference quotients / range of the parameter
 constexpr int kCorrections = 4;
 constexpr double kGain = 0.7,
-                 kEnough = 0.01;  // of a correction: share of the last, share of the slope
+                 kEnough = 0.01;  // of a correction: ratio to the one before, ratio to dx/dp
 
 }  // namespace
 
@@ -63,7 +63,7 @@ std::vector<Points> Equilibrium::sensitivities(const Pose& pose, std::span<const
     const std::vector<tissue::Contacts::Contact> found = tissue_.contacts().list();
     const Rigid mandible = tissue_.mandible();
 
-    // The drive a little less and a little more in one number
+    // The drive with one number slightly decreased or increased
     struct Nearby {
         Eigen::VectorXd activation;
         track::Drive drive;
@@ -100,7 +100,7 @@ std::vector<Points> Equilibrium::sensitivities(const Pose& pose, std::span<const
         const Points above = gradient_at(more), below = gradient_at(less);
         solver_.solve((below - above) / apart, by_nodes);
 
-        // Planes of contact turn as tissue slides over them: what is left of the slope with contacts found anew
+        // Contact planes turn as tissue slides over them: correct for the gradient that is left with newly found contacts
         double before = by_nodes.norm();
         for (int correction = 0; correction < kCorrections; ++correction) {
             const auto found_anew = [&](const Nearby& there) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A face at rest under what drives it, and how that equilibrium answers to its drive.
+/// The equilibrium of a face under a drive, and its derivatives by the drive. The public view is statics.h.
 ///
-///   g(x, p) = 0   at the nodes x in equilibrium with a drive p; H = dg/dx
-///   dx/dp = - H^-1 dg/dp          v(x, p) vertices of the mesh, dv/dp = v_x dx/dp + v_p
-///   of a number L(x) with slope b = dL/dx:   dL/dp = - (H^-1 b) . dg/dp, whatever p is
+///     g(x, p) = 0,   H = dg/dx,   dx/dp = - H^-1 dg/dp,   dv/dp = v_x dx/dp + v_p
+///     for a number L(x) with b = dL/dx:   dL/dp = - (H^-1 b) . dg/dp
 ///
-/// One factor of H serves them all. In H contact planes are those of the pose; that they turn as tissue slides over them is put
-/// right in dx/dp by a few more solves with the same factor.
+/// - x: nodes, n x 3, m; p: a number of the drive; g: gradient of the static energy, n x 3, N; v(x, p): vertices of the mesh, V x 3, m
+///
+/// All derivatives use one factor of H. H treats contact planes as fixed. They turn as tissue slides over them; a few more solves with
+/// the same factor correct dx/dp for that.
 #pragma once
 
 #include <functional>
@@ -23,43 +24,45 @@ namespace risorius::face {
 
 class Equilibrium {
   public:
-    /// Puts bones, lids and air of the tissue where the drive wants them.
+    /// Sets the boundary conditions of the tissue (bones, lids, air) for activation and drive.
     using Prescribe =
         std::function<void(const Eigen::VectorXd& activation, const track::Drive& drive)>;
-    /// Vertices of the mesh for nodes and a drive.
+    /// Returns the vertices of the mesh, V x 3, m, for nodes and drive.
     using Vertices = std::function<Points(const Points& x, const Eigen::VectorXd& activation,
                                           const track::Drive& drive)>;
-    /// What is in equilibrium.
+    /// A state in equilibrium.
     struct Pose {
         const Points& x;
         const Eigen::VectorXd& activation;
         const track::Drive& drive;
     };
 
-    /// Keeps references to all. `least` is the lower limit of each column.
+    /// Keeps a reference to the tissue. `min` is the lower limit of each column of the activation.
     Equilibrium(FaceTissue& tissue, Prescribe set_boundary_conditions, Vertices vertices,
                 Eigen::VectorXd min);
 
-    /// Moves x to the equilibrium; the tissue must be prescribed.
+    /// Moves x to the equilibrium. The boundary conditions must be set.
     StepStats solve_equilibrium(const Eigen::VectorXd& activation, const StaticOptions& options,
                                 Points& x);
-    /// The pose is no longer the one last factored.
+    /// Call it when the pose or the forces have changed: the factor of H is out of date.
     void moved() { factored_ = false; }
+    /// The next equilibrium will depend on its arguments alone, not on former factors.
     void forget() {
         moved();
         solver_.forget();
     }
 
-    /// g at any nodes for any drive; zero on fixed nodes. Leaves the tissue prescribed as in `pose`.
+    /// Returns g at any nodes for any drive, n x 3, N; zero on fixed nodes. Afterwards the boundary conditions are those of `pose`.
     Points gradient(const Pose& pose, const Points& nodes, const Eigen::VectorXd& activation,
                     const track::Drive& drive);
-    Points solve(const Pose& pose, const Points& b);  ///< H^-1 b, both over nodes
-    /// dv/dp per unit of each: activations first, then channels.
+    /// Returns H^-1 b, n x 3.
+    Points solve(const Pose& pose, const Points& b);
+    /// Returns dv/dp, V x 3 each, m per unit: by the activations of `columns`, then by `channels`.
     std::vector<Points> sensitivities(const Pose& pose, std::span<const int> columns,
                                       std::span<const track::Kinematic> channels);
 
   private:
-    /// Prescribes the pose, finds its contacts and factors H, unless that was done.
+    /// Sets the boundary conditions of the pose, finds its contacts, and factors H unless the factor is up to date.
     void prepare(const Pose& pose);
 
     FaceTissue& tissue_;

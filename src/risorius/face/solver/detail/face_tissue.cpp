@@ -3,8 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "risorius/face/muscle/detail/muscle_placement.h"
+#include "risorius/face/solver/detail/terms/attachment_term.h"
+#include "risorius/face/solver/detail/terms/fibre_term.h"
+#include "risorius/face/solver/detail/terms/lip_term.h"
+#include "risorius/face/solver/detail/terms/load_term.h"
+#include "risorius/face/solver/detail/terms/tissue_term.h"
+#include "risorius/face/solver/detail/terms/volume_muscle_term.h"
 #include "risorius/geom/polyline.h"
 #include "risorius/solve/metric_builder.h"
 
@@ -12,13 +19,13 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kLidTether_pa_per_m = 5e6;  // tarsal plate holding its lid
+constexpr double kTarsalPlate_pa_per_m = 5e6;  // tarsal plate holding its lid
 
-// Under the mandible fat is loose, and the little that is there has to keep its volume while an opening jaw takes a third of its
-// base away: ratios to the face's tissue (estimates; with them ICT's measured jawOpen is met best).
+// Ratios to the tissue of the face, for the floor of the mouth. Fat below the mandible is loose. It has to keep its volume while the
+// opening jaw takes a third of its base away. Estimates; with them the measured jawOpen of ICT is met best.
 constexpr double kFloorShearRatio = 0.5, kFloorBulkRatio = 2.5;
 
-constexpr double kMouth_mm = 20;  // around the line between the lips, of the average adult
+constexpr double kMouth_mm = 20;  // radius around the line between the lips, average adult
 
 }  // namespace
 
@@ -48,7 +55,6 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
 
     build_tissue();
     build_skin();
-    build_tethers();
     hill_.passive_strain = rig_.tissue.fibre_passive_strain;
     muscles_ = place_muscles(head_, rig_, shell_, mesh_);
     fibres_.emplace(muscles_.points, muscles_.fibres, mesh_.nodes, hill_);
@@ -59,7 +65,7 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
     build_terms();
 }
 
-// Share of lid softness at a skin point: 1 in the lids_, 0 away from the eyes.
+// Returns the fraction of lid tissue at a skin point: 1 in the lids, 0 away from the eyes.
 double FaceTissue::lid_fraction(const Vec3& p) const {
     double fraction = 0;
     for (const EyeLids& lid : lids_)
@@ -69,19 +75,20 @@ double FaceTissue::lid_fraction(const Vec3& p) const {
     return fraction;
 }
 
-// Share of lip softness at a skin point: 1 at the line between the lips_, 0 a lip's height away.
+// Returns the fraction of lip tissue at a skin point: 1 at the line between the lips, 0 at the height of a lip from it.
 double FaceTissue::lip_fraction(const Vec3& p) const {
     return 1.0 - geom::smoothstep(head_.mm(6), head_.mm(14), geom::distance_to_polyline(p, lips_));
 }
 
-// Of the cheek's tissue to the rest, at a point.
+// Returns the ratio of the stiffness of cheek tissue to other tissue at a point.
 double FaceTissue::cheek_ratio(const Vec3& p) const {
     return std::pow(rig_.tissue.crease_shear_ratio, cheek_.crease(p)) *
            std::pow(rig_.tissue.malar_shear_ratio, cheek_.fat(p));
 }
 
 void FaceTissue::build_tissue() {
-    // Tissue: soft fat below, firmer above, very soft lids_, a firm knot at each mouth corner, a cheek that folds, a loose floor
+    // Soft deep fat, firmer tissue above, very soft lids and lips, a firm modiolus at each mouth corner, a cheek that folds, and a
+    // loose floor of the mouth
     Eigen::VectorXd mu(mesh_.tets.rows()), bulk(mesh_.tets.rows());
     const std::array<Vec3, 2> modiolus{Vec3(head_.landmark("nl3_l")),
                                        Vec3(head_.landmark("nl3_r"))};
@@ -103,27 +110,29 @@ void FaceTissue::build_tissue() {
 }
 
 void FaceTissue::build_skin() {
-    sheet_ = shell_.triangles;
-    membrane_.resize(sheet_.rows());
-    bending_.resize(sheet_.rows());
-    for (long f = 0; f < sheet_.rows(); ++f) {
+    Triangles& triangles = sheet_.triangles;
+    triangles = shell_.triangles;
+    sheet_.membrane_n_per_m.resize(triangles.rows());
+    sheet_.bending_n_m.resize(triangles.rows());
+    for (long f = 0; f < triangles.rows(); ++f) {
         Vec3 centre = Vec3::Zero();
         for (int k = 0; k < 3; ++k) {
             centre += mesh_.nodes.row(node_of(shell_.triangles(f, k), kSkin)).transpose() / 3.0;
-            sheet_(f, k) = node_of(shell_.triangles(f, k), kSkin);
+            triangles(f, k) = node_of(shell_.triangles(f, k), kSkin);
         }
         const double ratio = std::pow(rig_.skin.lid_membrane_ratio, lid_fraction(centre)) *
                              std::pow(rig_.tissue.lip_shear_ratio, lip_fraction(centre)) *
                              cheek_ratio(centre);
-        membrane_[f] = ratio * rig_.skin.membrane_n_per_m;
-        bending_[f] = ratio * rig_.skin.bending_n_m;
+        sheet_.membrane_n_per_m[f] = ratio * rig_.skin.membrane_n_per_m;
+        sheet_.bending_n_m[f] = ratio * rig_.skin.bending_n_m;
     }
-    skin_.emplace(sheet_, mesh_.nodes, membrane_, bending_);
+    skin_.emplace(triangles, mesh_.nodes, sheet_.membrane_n_per_m, sheet_.bending_n_m);
 }
 
-void FaceTissue::build_tethers() {
-    // Attachments to bone, and lids_ to their tarsal plates
-    std::vector<tissue::ZeroLengthSprings::Tether> held;
+std::shared_ptr<FaceTerm> FaceTissue::make_attachment_term() const {
+    // Attachments to bone first, then those of the lids to their tarsal plates
+    std::vector<tissue::ZeroLengthSprings::Spring> held;
+    std::vector<LidSpring> lid_springs;
     for (const Attachment& a : attachments_) {
         const int node = node_of(a.shell_vertex, kDeep);
         held.push_back({node, mesh_.nodes.row(node).transpose(), mesh_.direction[a.shell_vertex],
@@ -139,18 +148,19 @@ void FaceTissue::build_tethers() {
             if (firmness < 1e-3) continue;
             for (Layer layer : {kDeep, kMiddle, kSkin}) {
                 const int node = node_of(static_cast<int>(v), layer);
-                const double k = firmness * kLidTether_pa_per_m * mesh_.area_m2[v];
+                const double k = firmness * kTarsalPlate_pa_per_m * mesh_.area_m2[v];
                 held.push_back({node, mesh_.nodes.row(node).transpose(), Vec3::UnitZ(), k, k});
-                lid_tethers_.push_back({side, member, mesh_.nodes.row(node).transpose()});
+                lid_springs.push_back({side, member, mesh_.nodes.row(node).transpose()});
             }
         }
     }
-    tethers_.emplace(held);
+    return std::make_shared<AttachmentTerm>(std::move(held), std::move(lid_springs), attachments_,
+                                            mesh_, jaw_, lids_);
 }
 
 void FaceTissue::find_cheeks(const Jaw& jaw) {
-    // Air fills the vestibule: behind cheeks and lips, from the fold under the nose down to that above the mandible's border, and
-    // back to the masseter. Lips that are shut are pushed forwards as one, which does not open them.
+    // Air fills the vestibule behind cheeks and lips: from the fold below the nose down to that above the border of the mandible, and
+    // back to the masseter. Closed lips are pushed forwards together, which does not open them.
     const double fold_y = head_.landmark("sn").y();
     for (const Attachment& a : attachments_) {
         const Vec3 p = mesh_.nodes.row(node_of(a.shell_vertex, kSkin)).transpose();
@@ -163,7 +173,7 @@ void FaceTissue::find_cheeks(const Jaw& jaw) {
         const double fraction = near * below * above * rim;
         const int node = node_of(a.shell_vertex, kDeep);
         const bool in_tissue =
-            mass_[node] > 0;  // what air pushed away there would hold nothing back
+            mass_[node] > 0;  // a node without mass would have no tissue to resist the air
         if (fraction > 0 && in_tissue && lid_fraction(p) == 0)
             cheeks_.push_back(
                 {node, fraction * mesh_.area_m2[a.shell_vertex] * mesh_.direction[a.shell_vertex]});
@@ -174,7 +184,7 @@ const solve::SparseCholesky& FaceTissue::metric(double h) {
     for (const Metric& known : metrics_)
         if (known.h == h) return known.factor;
     solve::MetricBuilder builder(nodes());
-    add_metric(terms_, h, builder);
+    terms_.add_metric(h, builder);
     for (int i = 0; i < nodes(); ++i) builder.add_diagonal(i, mass_[i] / (h * h) + 1e-9);
     metrics_.push_back(
         {h, solve::SparseCholesky(builder.build({fixed_.begin(), fixed_.begin() + nodes()}),
@@ -187,61 +197,34 @@ void FaceTissue::prepare(double h) {
     if (refines_mouth(h)) mouth_.emplace(make_mouth(h));
 }
 
-void FaceTissue::set_boundary_conditions(const BoundaryState& prescribed) {
-    const Rigid& moved = prescribed.mandible;
-    mandible_ = moved;
-    gaze_ = prescribed.gaze;
-    std::vector<tissue::ZeroLengthSprings::Tether>& held = tethers_->list();
-    const double chin_back = jaw_.chin_back(moved);
-    for (std::size_t i = 0; i < attachments_.size(); ++i) {
-        const Attachment& a = attachments_[i];
-        const Vec3 rest = mesh_.nodes.row(held[i].node).transpose();
-        held[i].target = a.target(rest, moved, chin_back);
-        held[i].normal = ((1 - a.jaw_weight) * mesh_.direction[a.shell_vertex] +
-                          a.jaw_weight * (moved.linear() * mesh_.direction[a.shell_vertex]))
-                             .normalized();
-    }
-    for (std::size_t i = 0; i < lid_tethers_.size(); ++i) {
-        const LidTether& t = lid_tethers_[i];
-        held[attachments_.size() + i].target =
-            t.rest + lids_[t.side].ride(t.rest, t.member, prescribed.lid[t.side]);
-    }
-    const std::array<Rigid, kBodies> bodies{Rigid::Identity(), moved};
-    fibres_->set_body_positions(bodies);
-    solids_->set_bodies(bodies);
-    lip_drive_->set_mandible(moved);
-    const double pressure = prescribed.mouth_pressure_pa;
-    std::vector<tissue::DeadLoads::Load> loads;
-    if (pressure != 0)
-        for (const auto& [node, area] : cheeks_) loads.push_back({node, pressure * area});
-    if (!prescribed.weight_m_s2.isZero(0.0))
-        for (int i = 0; i < static_cast<int>(mass_.size()); ++i)
-            if (!fixed_[static_cast<std::size_t>(i)])
-                loads.push_back({i, mass_[i] * prescribed.weight_m_s2});
-    air_.set(loads);
+void FaceTissue::set_boundary_conditions(const BoundaryState& boundary) {
+    mandible_ = boundary.mandible;
+    gaze_ = boundary.gaze;
+    terms_.set_boundary_conditions(boundary);
 }
 
-void FaceTissue::carry_with_bone(Points& x, const Rigid& from, const Rigid& to) const {
-    solids_->carry(x, from, to);
-    if (from.isApprox(to, 0.0)) return;
-    for (const Attachment& at : attachments_)
-        for (Layer layer : {kDeep, kMiddle, kSkin}) {
-            const int node = node_of(at.shell_vertex, layer);
-            const Vec3 rest = mesh_.nodes.row(node).transpose();
-            x.row(node) += at.jaw_weight * (to * rest - from * rest).transpose();
-        }
+// A new force is one line here. The order of the lines is the order of summation.
+void FaceTissue::build_terms() {
+    terms_.add(std::make_shared<TissueTerm>(*tets_, rig_.tissue.damping_s, inputs_));
+    terms_.add(std::make_shared<SkinTerm>(*skin_, sheet_, inputs_));
+    terms_.add(make_attachment_term());
+    terms_.add(std::make_shared<FibreTerm>(*fibres_, hill_, inputs_));
+    terms_.add(std::make_shared<VolumeMuscleTerm>(*solids_, inputs_), {.last_on_mandible = true});
+    contact_term_ = std::make_shared<ContactTerm>(contacts_, search_);
+    terms_.add(contact_term_, {.changing_pairs = true});
+    terms_.add(std::make_shared<LoadTerm>(cheeks_, mass_, fixed_));
+    terms_.add(std::make_shared<LipTerm>(*lip_drive_, inputs_));
+}
+
+void FaceTissue::add_term(std::shared_ptr<solve::EnergyTerm> term) {
+    terms_.add(std::move(term));
+    metrics_.clear();
+    forget_mouth();
 }
 
 void FaceTissue::find_contacts(const Points& x) {
     contacts_.set(search_.find(x, mandible_, gaze_));
-    note_contacts();
-}
-
-void FaceTissue::note_contacts() {
-    contact_on_mandible_.clear();
-    const Rigid to_rest = mandible_.inverse();
-    for (const tissue::Contacts::Contact& contact : contacts_.list())
-        contact_on_mandible_.push_back(to_rest * contact.point);
+    contact_term_->note(mandible_);
 }
 
 double FaceTissue::step_energy(double h, const Points& aim, const Eigen::VectorXd& activation,
@@ -256,7 +239,7 @@ double FaceTissue::step_energy(double h, const Points& aim, const Eigen::VectorX
     }
     double value = 0.5 * inertia * moving;
     inputs_.activation = &activation;
-    const TermEnergy energy = add_potential(terms_, {0.0, h, step_start_}, at, gradient);
+    const FaceTerms::Energy energy = terms_.add_potential({0.0, h, step_start_}, at, gradient);
     value += energy.first;
     value += energy.others;
     for (long i = 0; i < at.rows(); ++i)
@@ -267,7 +250,7 @@ double FaceTissue::step_energy(double h, const Points& aim, const Eigen::VectorX
 void FaceTissue::begin_step(double h, const Points& start, const Eigen::VectorXd& activation) {
     step_start_ = start;
     inputs_.activation = &activation;
-    for (const FaceTerm& entry : terms_) entry.term->begin_step(0.0, h, step_start_, {});
+    terms_.begin_step(h, step_start_);
 }
 
 StepStats FaceTissue::implicit_step(double h, const Points& start, const Points& aim,
@@ -293,13 +276,7 @@ LocalSolve FaceTissue::make_mouth(double h) const {
         for (Layer layer : {kDeep, kMiddle, kSkin})
             moves[static_cast<std::size_t>(node_of(static_cast<int>(v), layer))] = 1;
     }
-    std::vector<std::pair<int, double>> touching;
-    for (std::size_t i = 0; i < search_.nodes().size(); ++i)
-        touching.push_back({search_.nodes()[i], kContactFraction * search_.node_stiffness()[i]});
-    return LocalSolve(
-        {mesh_.nodes, *tets_, sheet_, membrane_, bending_, *tethers_, *fibres_, hill_, *solids_,
-         *lip_drive_, contacts_, air_, mass_, rig_.tissue.damping_s, terms_},
-        moves, h, touching);
+    return LocalSolve(terms_, moves, mesh_.nodes, mass_, h);
 }
 
 void FaceTissue::refine(double h, const Points& start, const Points& aim,

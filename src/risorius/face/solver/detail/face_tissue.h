@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The deformable part of a face as one system of equations over its nodes.
+/// The soft tissue of a face as one system of equations over its nodes.
 ///
 /// A step of length h minimises over the node positions x, n x 3, m
 ///
@@ -31,10 +31,13 @@
 #include "risorius/face/muscle/detail/lip_drive.h"
 #include "risorius/face/muscle/detail/muscle_placement.h"
 #include "risorius/face/muscle/detail/muscle_solids.h"
+#include "risorius/face/solver/detail/boundary_state.h"
 #include "risorius/face/solver/detail/contact_search.h"
 #include "risorius/face/solver/detail/face_terms.h"
 #include "risorius/face/solver/detail/local_solve.h"
 #include "risorius/face/solver/detail/separation.h"
+#include "risorius/face/solver/detail/terms/contact_term.h"
+#include "risorius/face/solver/detail/terms/skin_term.h"
 #include "risorius/face/step_stats.h"
 #include "risorius/muscle/fibre_set.h"
 #include "risorius/rig/head.h"
@@ -42,10 +45,8 @@
 #include "risorius/solve/quasi_newton.h"
 #include "risorius/solve/sparse_cholesky.h"
 #include "risorius/tissue/contacts.h"
-#include "risorius/tissue/dead_loads.h"
 #include "risorius/tissue/skin_sheet.h"
 #include "risorius/tissue/tet_solid.h"
-#include "risorius/tissue/tethers.h"
 
 namespace risorius::solve {
 enum class Curvature;
@@ -54,24 +55,11 @@ class HessianBuilder;
 
 namespace risorius::face {
 
-/// Steps this long seek rest, not motion.
-inline constexpr double kSettling_s = 0.1;
-
-/// What moves by itself and takes the tissue along.
-struct BoundaryState {
-    Rigid mandible = Rigid::Identity();
-    std::array<LidPose, 2> lid;
-    double mouth_pressure_pa = 0;
-    std::array<Mat3, 2> gaze{Mat3::Identity(), Mat3::Identity()};  ///< turn of each eye
-    Vec3 weight_m_s2 =
-        Vec3::Zero();  ///< acceleration on all tissue, beyond what its rest shape bears
-};
-
 /// A jaw that its muscles move within a step of the tissue.
 struct JawInStep {
     const JawDynamics& dynamics;
     JawDynamics::Step step;
-    JawVector q;  ///< where it begins and ends
+    JawVector q;  ///< coordinates at the start; the solve replaces them
 };
 
 class FaceTissue {
@@ -82,10 +70,10 @@ class FaceTissue {
     FaceTissue(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
                const std::array<EyeLids, 2>& lids, const Shell& shell, const TissueMesh& mesh);
 
-    /// Factors the matrices for steps of length h now rather than in the first of them.
+    /// Factors the matrices for steps of length h, s, before the first of them.
     void prepare(double h);
 
-    /// What steps of motion are worked out in; equilibria are in double.
+    /// Sets the precision of the tissue forces in time steps. Equilibria use double precision.
     void step_in(solve::Precision precision) { inputs_.precision = precision; }
 
     /// Sets the extra iterations restricted to the mouth after each dynamic step: soft lips converge last.
@@ -93,51 +81,55 @@ class FaceTissue {
 
     void set_boundary_conditions(const BoundaryState& prescribed);
 
-    /// Moves nodes with their bone, as far as they follow the mandible.
-    void carry_with_bone(Points& x, const Rigid& from, const Rigid& to) const;
+    /// Moves the nodes that follow the mandible, x n x 3, m, when it moves from `from` to `to`.
+    void carry_with_bone(Points& x, const Rigid& from, const Rigid& to) const {
+        terms_.carry(x, from, to);
+    }
 
-    /// Finds the contact pairs at x; they hold until the next call. What steps learn about how hard they press is kept.
+    /// Finds the contact pairs at x; they are used until the next call. The shifts that contacts have learned are kept (contacts.h).
     void find_contacts(const Points& x);
     void forget_contacts() { contacts_.forget(); }
-    /// Of all that is near at x, whatever was found before.
+    /// Returns the penetration at x of newly found pairs.
     Penetration penetration(const Points& x) const;
-    /// The same nodes out of each other and of the bones, see separation.h.
+    /// Returns x with penetrations resolved for display, see separation.h.
     Points resolve_penetration(const Points& x, const Rigid& mandible,
                                const std::array<Mat3, 2>& gaze) const {
         return face::resolve_penetration(x, search_, mandible, gaze, fixed_);
     }
 
-    /// One step from `start` aiming at `aim` (see above); x is where the search begins and ends. The moves of x in `warm_start` are
-    /// tried first.
+    /// Solves one step of length h, s. `start` and `aim` are n x 3, m: the positions at the start of the step, and a (see above). x is
+    /// the first guess and becomes the result. The moves of x in `warm_start`, n x 3 each, are the first curvature pairs of L-BFGS.
     StepStats implicit_step(double h, const Points& start, const Points& aim,
                             const Eigen::VectorXd& activation,
                             const solve::QuasiNewtonOptions& options, Points& x,
                             std::span<const Points> warm_start = {});
 
-    /// From here on static energies at and around x: no inertia, no damping, fibres at rest.
+    /// Prepares static energies at and around x: without inertia and damping.
     void begin_rest(const Points& x) { solids_->begin_rest(x); }
-    /// Returns what deforms, without inertia and damping, and its gradient: zero on fixed rows. After begin_rest().
+    /// Returns the static energy, J, and its gradient, n x 3, N, zero on fixed rows. Call begin_rest() first.
     double static_energy(const Points& x, const Eigen::VectorXd& activation,
                          Points& gradient) const;
-    /// Adds the second derivative of that; pairs in contact as found, and all that may ever touch named in the same order.
+    /// Adds the second derivative of the static energy, N/m, with the contact pairs found last. Pairs that are apart add zeros, so that
+    /// the pattern of the matrix does not depend on what touches.
     void add_static_hessian(const Points& x, const Eigen::VectorXd& activation,
                             solve::Curvature curvature, solve::HessianBuilder& hessian) const;
-    const std::vector<char>& fixed() const { return fixed_; }  ///< one flag per row
+    const std::vector<char>& fixed() const { return fixed_; }  ///< one flag per row of x
     const tissue::Contacts& contacts() const { return contacts_; }
-    /// The same as find_contacts() for equilibria: contacts harden with depth and remember nothing.
+    /// Like find_contacts(), for equilibria: contacts harden with depth and have no memory.
     void find_rest_contacts(const Points& x);
-    /// The same on the way there: as in steps that have learned nothing.
+    /// Like find_contacts(), without memory: for the first iterations towards an equilibrium.
     void find_soft_contacts(const Points& x);
-    /// After coming to rest at x: depths and volumes, and steps from here press as hard.
+    /// Ends the search for an equilibrium at x: returns depths and volumes, and sets the memory of the contacts so that steps from here
+    /// press as hard.
     StepStats end_rest(const Points& x);
-    /// Contacts as found with the mandible at `from`, now with those of the mandible riding on it.
+    /// Sets the contacts to `found`, which were found with the mandible at `from`. Those of the mandible move with it.
     void ride_contacts(const std::vector<tissue::Contacts::Contact>& found, const Rigid& from);
     const Rigid& mandible() const { return mandible_; }
-    /// dE/dx at rest in time, with the contacts found last; zero where nodes are fixed.
+    /// Returns the gradient of the static energy with the contacts found last, n x 3, N; zero on fixed rows.
     Points static_gradient(const Points& x, const Eigen::VectorXd& activation) const;
 
     int nodes() const { return static_cast<int>(mesh_.nodes.rows()); }  ///< of the tissue
-    /// Of everything at rest: tissue, then the volume muscles. States have these rows.
+    /// Positions at rest, n x 3, m: nodes of the tissue, then those of the volume muscles. All states have these rows.
     const Points& rest() const { return rest_; }
     const MuscleSolids& solids() const { return *solids_; }
     MuscleSolids& solids() { return *solids_; }
@@ -147,18 +139,18 @@ class FaceTissue {
         lip_drive_->scale(lips);
         forget_mouth();
     }
-    /// After a change of forces: the part that moves by itself has its own copy of them.
+    /// Call it after a change of forces: the local solve of the mouth has copies of them.
     void forget_mouth() { mouth_.reset(); }
-    /// The same together with a jaw: the least sum of both energies over nodes and coordinates of the jaw. The tissue must be
-    /// prescribed where the jaw begins.
+    /// Solves one step of the tissue together with a jaw that its muscles move: minimises the sum of both energies over the nodes and
+    /// the coordinates of the jaw. The boundary conditions must be those of the start of the jaw.
     StepStats implicit_step(double h, const Points& start, const Points& aim,
                             const Eigen::VectorXd& activation,
                             const solve::QuasiNewtonOptions& options, Points& x, JawInStep& jaw);
 
-    /// Measures how stiff the tissue at rest holds a jaw in steps of length h. Before the first of them; leaves the tissue
-    /// prescribed at rest.
+    /// Measures the stiffness of the resting tissue against the motion of a jaw, for steps of length h, s. Call it before the first of
+    /// them. Afterwards the boundary conditions are those of rest.
     void prepare(double h, const JawDynamics& jaw);
-    const JawMatrix& ride_stiffness(double h) const;  ///< N/m, after that
+    const JawMatrix& ride_stiffness(double h) const;  ///< the measured stiffness, N/m
 
     const tissue::TetSolid& tets() const { return *tets_; }
     const muscle::FibreSet& fibres() const { return *fibres_; }
@@ -167,11 +159,6 @@ class FaceTissue {
     const Eigen::VectorXd& mass() const { return mass_; }        ///< per node, kg
 
   private:
-    struct LidTether {
-        int side;
-        LidMember member;
-        Vec3 rest;
-    };
     struct Metric {
         double h;
         solve::SparseCholesky factor;
@@ -181,26 +168,23 @@ class FaceTissue {
     double cheek_ratio(const Vec3& p) const;
     void build_tissue();
     void build_skin();
-    void build_tethers();
+    std::shared_ptr<FaceTerm> make_attachment_term() const;
     void find_cheeks(const Jaw& jaw);
     const solve::SparseCholesky& metric(double h);
-    /// Before step_energy(), which is E and its gradient by the nodes.
+    /// Starts a step. step_energy() then returns E, J, and its gradient by the nodes.
     void begin_step(double h, const Points& start, const Eigen::VectorXd& activation);
     double step_energy(double h, const Points& aim, const Eigen::VectorXd& activation,
                        const Points& at, Points& gradient);
-    void note_contacts();
     void put_depths(const Points& x, StepStats& figures) const;
-    /// Of a step of motion, after its iterations.
+    /// Makes the extra iterations for the mouth after those of a time step.
     void refine(double h, const Points& start, const Points& aim, const Eigen::VectorXd& activation,
                 const solve::QuasiNewtonOptions& options, Points& x);
     bool refines_mouth(double h) const { return mouth_iterations_ > 0 && h < kSettling_s; }
     LocalSolve make_mouth(double h) const;
     StepStats end_step(const solve::StepReport& report, const Points& x);
-    /// Within a step: what is held by the mandible goes with it; directions stay those of the step's start.
+    /// Moves the mandible within a step: what it holds follows, directions stay those of the start of the step.
     void move_mandible(const Rigid& moved);
-    /// dE/d(motion of the mandible) when the tissue rides along; `gradient` is that by the nodes.
-    Wrench mandible_gradient(const Points& x, const Points& gradient) const;
-    /// Fills the list of energy terms (face_terms.cpp).
+    /// Fills the list of energy terms.
     void build_terms();
 
     const rig::Head& head_;
@@ -213,35 +197,30 @@ class FaceTissue {
     CheekRegions cheek_;
     std::vector<Attachment> attachments_;
     std::optional<MuscleSolids> solids_;
-    mutable Wrenches solids_pull_;  // on skull and mandible, at the last evaluation
     Points rest_;
     std::vector<char> fixed_;  // rows
     std::optional<tissue::TetSolid> tets_;
-    Triangles sheet_;                     // of skin nodes
-    Eigen::VectorXd membrane_, bending_;  // of its triangles
+    SkinSheetParts sheet_;
     std::optional<tissue::SkinSheet> skin_;
-    std::optional<tissue::ZeroLengthSprings> tethers_;  // attachments, then lids
     muscle::HillShape hill_;
     MusclePlacement muscles_;
     std::optional<muscle::FibreSet> fibres_;
     mutable std::optional<LipDrive> lip_drive_;  // follows the activation it is asked with
     ContactSearch search_;
     tissue::Contacts contacts_;
-    tissue::DeadLoads air_;  // and what weight changes when the head tilts
     Rigid mandible_ = Rigid::Identity();
     std::array<Mat3, 2> gaze_{Mat3::Identity(), Mat3::Identity()};
-    std::vector<Vec3> contact_on_mandible_;  // per contact, its point with the mandible at rest
+    std::shared_ptr<ContactTerm> contact_term_;
     std::vector<std::pair<double, JawMatrix>> ride_stiffness_;  // by h
-    std::vector<LidTether> lid_tethers_;
-    std::vector<std::pair<int, Vec3>> cheeks_;  // deep node, outward area, m^2
+    std::vector<std::pair<int, Vec3>> cheeks_;                  // deep node, outward area, m^2
     Eigen::VectorXd mass_;
     std::vector<Metric> metrics_;  // one per step length used
     solve::QuasiNewton newton_;
     FaceTerms terms_;
     mutable TermInputs inputs_;
-    Points step_start_;  // of the step that begin_step() was told of
+    Points step_start_;  // positions at the start of the present step
     int mouth_iterations_ = 0;
-    std::optional<LocalSolve> mouth_;  // of the step length used last
+    std::optional<LocalSolve> mouth_;  // for the step length used last
     Points carried_, carried_gradient_;
 };
 

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Tissue and jaw in one solve. Unknowns are the nodes relative to a face that rides on the mandible, and the jaw's coordinates:
+// One solve for tissue and jaw. The unknowns are the nodes relative to a face that follows the mandible, and the coordinates of the jaw:
 //   x_i = d_i + w_i (T(q) - T(q_n)) X_i,   min over d, q of E_tissue(x, T(q)) + E_jaw(q)
-// by L-BFGS; its metric has a block for the tissue and one for the jaw, second derivatives of the jaw's own energy and of riding
-// tissue (at rest).
+// The method is L-BFGS. Its metric has one block for the tissue and one for the jaw. The latter is the second derivative of the energy
+// of the jaw, plus that of the resting tissue which follows it.
 #include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "risorius/core/dense_algebra.h"
-#include "risorius/face/muscle/detail/muscle_placement.h"
 #include "risorius/face/solver/detail/face_tissue.h"
 
 namespace risorius::face {
 
 namespace {
 
-constexpr int kJawRows = 3;              // of coordinates below the nodes
-constexpr double kDifference_m = 50e-6;  // of coordinates, for the stiffness of riding
+constexpr int kJawRows = 3;  // rows of the unknowns that hold q, below the nodes
+constexpr double kDifference_m =
+    50e-6;  // step of the difference quotient for the stiffness of the tissue
 
 JawVector jaw_of(const Points& unknowns) {
     JawVector q;
@@ -34,56 +34,7 @@ void put_jaw(const JawVector& q, Points& unknowns) {
 
 void FaceTissue::move_mandible(const Rigid& moved) {
     mandible_ = moved;
-    std::vector<tissue::ZeroLengthSprings::Tether>& held = tethers_->list();
-    const double chin_back = jaw_.chin_back(moved);
-    for (std::size_t i = 0; i < attachments_.size(); ++i) {
-        const Vec3 rest = mesh_.nodes.row(held[i].node).transpose();
-        held[i].target = attachments_[i].target(rest, moved, chin_back);
-    }
-    const std::array<Rigid, kBodies> bodies{Rigid::Identity(), moved};
-    fibres_->set_body_positions(bodies);
-    solids_->move_bodies(bodies);
-    lip_drive_->move_mandible(moved);
-    for (std::size_t c = 0; c < contacts_.list().size(); ++c)
-        if (contacts_.list()[c].body == kMandibleBody)
-            contacts_.list()[c].point = moved * contact_on_mandible_[c];
-}
-
-Wrench FaceTissue::mandible_gradient(const Points& x, const Points& gradient) const {
-    Wrench sum;
-    const std::vector<tissue::ZeroLengthSprings::Tether>& held = tethers_->list();
-    for (std::size_t i = 0; i < attachments_.size(); ++i) {
-        const double fraction = attachments_[i].jaw_weight;
-        const Vec3& bulge = attachments_[i].floor_bulge;
-        if (fraction == 0 && bulge.isZero(0.0)) continue;
-        // Nodes that ride, and what their tether pulls its target with
-        for (Layer layer : {kDeep, kMiddle, kSkin}) {
-            const int node = node_of(attachments_[i].shell_vertex, layer);
-            sum.add(fraction * gradient.row(node).transpose(),
-                    mandible_ * Vec3(mesh_.nodes.row(node).transpose()));
-        }
-        const tissue::ZeroLengthSprings::Tether& t = held[i];
-        const Vec3 off = x.row(t.node).transpose() - t.target;
-        const Vec3 pull =
-            t.kt_n_per_m * off + (t.kn_n_per_m - t.kt_n_per_m) * off.dot(t.normal) * t.normal;
-        sum.add(-fraction * pull, mandible_ * Vec3(mesh_.nodes.row(t.node).transpose()));
-        // The bulge goes with the chin's way back, -z
-        sum.add(bulge.dot(pull) * Vec3::UnitZ(), mandible_ * jaw_.chin());
-    }
-    for (std::size_t p = 0; p < fibres_->points().size(); ++p) {
-        const muscle::FibrePoint& point = fibres_->points()[p];
-        if (point.count == 0 && point.body == kMandibleBody)
-            sum.add(fibres_->point_gradient(static_cast<int>(p)), mandible_ * point.body_rest);
-    }
-    for (const tissue::Contacts::Contact& contact : contacts_.list()) {
-        if (contact.body != kMandibleBody) continue;
-        sum.add(-tissue::Contacts::pull_n(contact, x) * contact.normal, contact.point);
-    }
-    lip_drive_->add_mandible_gradient(x, sum);
-    solids_->add_riding(mandible_, gradient, sum);
-    sum.force_n -= solids_pull_[kMandibleBody].force_n;
-    sum.torque_nm -= solids_pull_[kMandibleBody].torque_nm;
-    return sum;
+    terms_.move_mandible(moved);
 }
 
 const JawMatrix& FaceTissue::ride_stiffness(double h) const {
@@ -100,17 +51,18 @@ void FaceTissue::prepare(double h, const JawDynamics& jaw) {
     find_contacts(rest);
     begin_step(h, rest, relaxed);
     JawMatrix stiffness = JawMatrix::Zero();
-    // Solids hardly change volume: before they have found their shape they look far stiffer than a held jaw finds them
+    // Volume muscles hardly change volume. Before they have adapted their shape, they seem far stiffer than they are for a held jaw
     inputs_.solids_relaxed = h >= kSettling_s;
     for (int k = 0; k < kMandibleCoordinates; ++k) {
-        // Opening and forwards only: the other way, teeth and eminence are in the way
+        // One-sided difference in the opening direction; the other way, teeth and eminence would touch
         const JawPose pose = jaw.joint().pose(kDifference_m * JawVector::Unit(k));
         carried_ = rest;
         carry_with_bone(carried_, Rigid::Identity(), pose.motion);
         move_mandible(pose.motion);
         step_energy(h, rest, relaxed, carried_, carried_gradient_);
         stiffness.col(k) =
-            along(pose, mandible_gradient(carried_, carried_gradient_)) / kDifference_m;
+            along(pose, terms_.mandible_gradient(mandible_, carried_, carried_gradient_)) /
+            kDifference_m;
     }
     inputs_.solids_relaxed = false;
     set_boundary_conditions({});
@@ -137,7 +89,7 @@ StepStats FaceTissue::implicit_step(double h, const Points& start, const Points&
         JawVector by_jaw;
         JawMatrix unused;
         sum += jaw.dynamics.energy(jaw.step, q, by_jaw, unused);
-        by_jaw += along(pose, mandible_gradient(carried_, carried_gradient_));
+        by_jaw += along(pose, terms_.mandible_gradient(mandible_, carried_, carried_gradient_));
         gradient.topRows(rows) = carried_gradient_;
         put_jaw(by_jaw, gradient);
         return sum;
@@ -145,7 +97,7 @@ StepStats FaceTissue::implicit_step(double h, const Points& start, const Points&
 
     begin_step(h, start, activation);
 
-    // The jaw alone first, the tissue being linear to it
+    // First the jaw alone, with linear forces of the tissue
     Points unknowns(rows + kJawRows, 3), gradient(rows + kJawRows, 3);
     unknowns.topRows(rows) = x;
     put_jaw(jaw.q, unknowns);
@@ -157,7 +109,7 @@ StepStats FaceTissue::implicit_step(double h, const Points& start, const Points&
     jaw.dynamics.minimise(jaw.step, jaw.q, &load);
     put_jaw(jaw.q, unknowns);
 
-    // Then both
+    // Then jaw and tissue together
     jaw.dynamics.energy(jaw.step, jaw.q, own, stiffness);
     const Eigen::LLT<JawMatrix> jaw_metric(stiffness + load.stiffness);
     const solve::SparseCholesky& tissue_metric = metric(h);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A face at rest in what it is driven by: energy, gradient and second derivative without inertia and damping.
+// The static energy of the tissue: energy, gradient and second derivative without inertia and damping.
 #include <limits>
 
 #include "risorius/face/solver/detail/face_tissue.h"
@@ -9,7 +9,7 @@ namespace risorius::face {
 
 namespace {
 
-// Depth from which on a contact at rest is firmer than one of a step, which learns how hard to press.
+// Depth beyond which a contact in equilibrium is stiffer than one in a time step, which learns a shift instead.
 constexpr double kHardens_m = 0.0025e-3;
 
 solve::ImplicitStep equilibrium_at(const Points& x) {
@@ -22,7 +22,7 @@ double FaceTissue::static_energy(const Points& x, const Eigen::VectorXd& activat
                                  Points& gradient) const {
     gradient.setZero(x.rows(), 3);
     inputs_.activation = &activation;
-    const double energy = add_potential(terms_, equilibrium_at(x), x, gradient).sum();
+    const double energy = terms_.add_potential(equilibrium_at(x), x, gradient).sum();
     for (long i = 0; i < x.rows(); ++i)
         if (fixed_[static_cast<std::size_t>(i)]) gradient.row(i).setZero();
     return energy;
@@ -38,12 +38,12 @@ void FaceTissue::add_static_hessian(const Points& x, const Eigen::VectorXd& acti
                                     solve::Curvature curvature,
                                     solve::HessianBuilder& hessian) const {
     inputs_.activation = &activation;
-    add_hessian(terms_, equilibrium_at(x), x, curvature, hessian);
+    terms_.add_hessian(equilibrium_at(x), x, curvature, hessian);
 }
 
 void FaceTissue::find_rest_contacts(const Points& x) {
     contacts_.set_firm(search_.find(x, mandible_, gaze_), kHardens_m);
-    note_contacts();
+    contact_term_->note(mandible_);
 }
 
 void FaceTissue::find_soft_contacts(const Points& x) {

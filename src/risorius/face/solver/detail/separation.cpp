@@ -9,17 +9,18 @@ namespace {
 
 using Pair = tissue::Contacts::Contact;
 
-constexpr int kSweeps = 200;  // at most; some five are usual
-// What is left in, about what poses that have come to rest have, and how much more may be when no more sweeps follow
+constexpr int kSweeps = 200;  // maximum; about five are usual
+// Penetration that is left, about that of equilibria; and the excess at which the sweeps end
 constexpr double kLipSlack_m = 0.19e-3, kOtherSlack_m = 0.11e-3, kEnough_m = 0.05e-3;
 constexpr double kOverRelaxation = 1.5;
-constexpr double kNear_m = 1e-3;  // apart, nodes are looked at again once they have moved
+constexpr double kNear_m =
+    1e-3;  // pairs farther apart are searched again only after they have moved
 
 double beyond_slack_m(const Pair& pair, const Points& x) {
     return tissue::Contacts::depth(pair, x) - (pair.body == kLipBody ? kLipSlack_m : kOtherSlack_m);
 }
 
-/// Moves of one sweep: of a node that several pairs move, their mean.
+/// The moves of one sweep. A node that several pairs move gets the mean of their moves.
 class Moves {
   public:
     explicit Moves(long nodes)
@@ -28,8 +29,8 @@ class Moves {
         sum_.row(node) += by.transpose();
         ++times_[static_cast<std::size_t>(node)];
     }
-    /// A lip's skin takes its column along: the planes of the lips turn with their columns, and a lip that turned as it gave way
-    /// would meet others.
+    /// Skin of a lip takes the column below it along. The planes of the lips turn with their columns, so that a lip which turned while
+    /// it moves would meet other planes.
     void add_column(int skin, const Vec3& by) {
         for (int layer = kDeep; layer <= kSkin; ++layer) add(skin - kSkin + layer, by);
     }
@@ -55,7 +56,7 @@ class Moves {
     std::vector<int> times_;
 };
 
-// Lips give way to each other by half.
+// Each lip moves by half of the penetration.
 void push_lips(const Pair& pair, double by_m, Moves& moves) {
     moves.add_column(pair.node, 0.5 * by_m * pair.normal);
     double squares = 0;
@@ -70,9 +71,9 @@ Points resolve_penetration(const Points& x, const ContactSearch& search, const R
                            const std::array<Mat3, 2>& gaze, const std::vector<char>& fixed) {
     Points out = x;
     Moves moves(x.rows());
-    std::vector<char> near;  // none: all are looked at
+    std::vector<char> near;  // empty: all rows are searched
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
-        // Planes turn and nodes meet others as they move
+        // Moving nodes turn planes and meet other nodes
         const std::vector<Pair> pairs = search.find(out, mandible, gaze, near);
         const bool all = near.empty();
         if (all) near.assign(static_cast<std::size_t>(x.rows()), 0);
@@ -88,7 +89,7 @@ Points resolve_penetration(const Points& x, const ContactSearch& search, const R
             else
                 moves.add(pair.node, kOverRelaxation * beyond_m * pair.normal);
         }
-        // The first sweep is made in any case: what is shown is to be continuous in x
+        // The first sweep is always made, so that the result is continuous in x
         if (max_m > kEnough_m || (sweep == 0 && max_m > 0))
             moves.apply(fixed, out, near);
         else if (all)

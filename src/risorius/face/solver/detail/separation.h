@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What is shown of tissue whose steps, of a few iterations, leave surfaces in each other: the same nodes moved out of lips,
-/// bone, teeth and eyeballs.
+/// Resolves penetration for display. Steps of few iterations leave surfaces in each other; here nodes are moved out of lips, bone,
+/// teeth and eyeballs.
 ///
-/// Forces have no part in it and nothing of it goes back into the state: fed back it would make held poses tremble. A pose that
-/// has come to rest is hardly changed, one without contact not at all.
+/// It is purely geometric and is not fed back into the state: feedback would make held poses tremble. A pose in equilibrium hardly
+/// changes; a pose without contact does not change.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@
 
 namespace risorius::face {
 
-/// Nodes of x, n x 3 m, out of each other and out of the bones but for a quarter of a millimetre or less, if a few sweeps get
-/// there. `fixed`: rows of x that stay.
+/// Returns x, n x 3, m, with penetrations reduced to 0.25 mm or less, as far as a few sweeps reach that. `fixed` flags the rows of x
+/// that do not move. `mandible` is the motion from rest, `gaze` the rotation of each eye.
 Points resolve_penetration(const Points& x, const ContactSearch& search, const Rigid& mandible,
                            const std::array<Mat3, 2>& gaze, const std::vector<char>& fixed);
 

@@ -14,29 +14,30 @@ namespace risorius::face {
 
 namespace {
 
-// Keeps nodes that nothing holds where they are, N/m; soft tissue holds its nodes with some N/m.
+// Holds nodes that nothing else holds, N/m; soft tissue holds its nodes with several N/m.
 constexpr double kLoose_n_per_m = 1e-6;
-// Farther from equilibrium the exact curvature is hardly ever positive.
+// Farther from equilibrium the exact H is hardly ever positive definite.
 constexpr double kFar_m = 0.5e-3;
-constexpr double kGain = 0.2;  // a round that leaves more than this share of |B g| has B made anew
+constexpr double kGain =
+    0.2;  // H is factored again after a round that leaves more than this fraction of |B g|
 constexpr double kStale =
-    5;  // so has one that begins with this much more than the last left: other contacts
-// Planes stand for what is near: how far a node may go in one iteration is halved after rounds that do not come nearer,
-// doubled after those that do.
+    5;  // or that starts with this multiple of what the last round left: contacts have changed
+// Contact planes are valid nearby only: the maximum move of a node per iteration is halved after rounds that do not come nearer, and
+// doubled after rounds that do.
 constexpr double kFirstStep_m = 1e-3, kShortestStep_m = 0.1e-3;
 constexpr double kNearer = 0.7, kForgetting = 1.1;
-constexpr int kFarRound = 6;          // iterations while it is far
-constexpr double kRoughStep_s = 0.5;  // so long that it seeks rest, see kSettling_s
+constexpr int kFarRound = 6;          // iterations per round while x is far from equilibrium
+constexpr double kRoughStep_s = 0.5;  // long enough to seek an equilibrium, see kSettling_s
 constexpr int kRoughRound = 20, kRoughRounds = 6;
-constexpr int kMixed = 5;  // rounds that Anderson's mixing looks back
-// Few poses take longer. In those a node is about to snap from one place to another, and planes sought at either send it to
-// the other, whatever is mixed. Held by a spring to where it was last, it goes the way that viscous tissue goes. Planes that
-// turn against it make it stiffer than they are as they stand; that is what the spring comes to where the node goes on.
-constexpr int kPatience = 300;  // iterations before that
+constexpr int kMixed = 5;  // number of rounds in Anderson mixing
+// Few poses need more iterations. In those a node is about to snap between two places, and the planes found at either place send it to
+// the other, with or without mixing. A spring to its last position lets it move like viscous tissue. Planes that turn against the node
+// act stiffer than fixed planes; the spring reaches that stiffness where the node keeps moving.
+constexpr int kPatience = 300;  // iterations before springs are added
 constexpr double kHold_n_per_m = 5;
-constexpr double kStiffer = 2;  // of springs whose node goes as far as before
+constexpr double kStiffer = 2;  // factor for springs whose node moves as far as before
 
-/// Anderson's mixing for z = x(z): of the moves x - z of the last rounds, the affine combination that is shortest (Walker &
+/// Anderson mixing for the fixed point z = x(z): the affine combination of the moves x - z of the last rounds with minimum norm (Walker &
 /// Ni 2011, "Anderson acceleration for fixed-point iterations", SIAM J. Numer. Anal. 49(4)).
 class FixedPoint {
   public:
@@ -107,7 +108,7 @@ double StaticSolver::energy(const Points& x, const Eigen::VectorXd& activation, 
 void StaticSolver::factorise(const Points& x, const Eigen::VectorXd& activation,
                              solve::Curvature first) {
     tissue_.begin_rest(x);
-    // Pairs of lips come and go; the pattern keeps them all, so that it is ordered but a few times
+    // Pairs of lips come and go. The pattern keeps all of them, so that the matrix is rarely reordered
     for (const tissue::Contacts::Contact& contact : tissue_.contacts().list())
         for (int i = 0; i < contact.count; ++i)
             for (int j = -1; j < i; ++j) {
@@ -138,8 +139,8 @@ void StaticSolver::solve(const Points& b, Points& y) const {
     linear_->factor.solve(y.data(), y.data());
 }
 
-// Far from equilibrium iterations with the constant scalar metric of long steps get as far as those with a factor, for a
-// hundredth of its price.
+// Far from equilibrium, iterations with the constant scalar metric of long steps gain as much as those with a factor of H, at a
+// hundredth of the cost.
 void StaticSolver::approach(const Eigen::VectorXd& activation, const StaticOptions& options,
                             Points& x, StepStats& figures) {
     if (known_) {
@@ -196,12 +197,12 @@ StepStats StaticSolver::solve_equilibrium(const Eigen::VectorXd& activation,
         return energy(at, activation, gradient);
     };
     const auto metric = [&](const Points& b, Points& y) { solve(b, y); };
-    // Planes of contact depend on where they are searched. Sought where the tissue came to rest on the last ones, two sets of
-    // them may take turns for ever: the fixed point sought = x(sought) is found by Anderson's mixing instead.
+    // Contact planes depend on where they are searched. If they are searched at the equilibrium on the last planes, two sets of planes
+    // may alternate for ever. So the fixed point sought = x(sought) is found by Anderson mixing.
     sought_ = x;
     FixedPoint fixed_point;
     solve::Curvature curvature = solve::Curvature::kPositive;
-    bool solved = true;  // the last round, with the planes it had
+    bool solved = true;  // whether the last round converged on its planes
     double last_left = std::numeric_limits<double>::infinity(), nearest = last_left;
     double longest_step = kFirstStep_m;
     const auto left_at = [&] {

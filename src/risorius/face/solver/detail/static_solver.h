@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Equilibria of a face whose bones, lids and air are held: positions at which the static energy of FaceTissue has no slope,
-/// and what is linear around them.
+/// Finds static equilibria of the tissue with fixed boundary conditions, and solves linear systems there.
 ///
-///   g(x) = dE/dx      H = d2E/dx2      B = H^-1 as last factored, there or nearby, without negative curvature
+///     g(x) = dE/dx = 0,   H = d2E/dx2
 ///
-/// L-BFGS with B as its metric: its first iteration is Newton's, the next ones correct B for where they are. Contact pairs are
-/// found anew before each round of iterations and hold within it. B is factored anew when a round gains too little. Nodes that
-/// keep snapping between the planes of two rounds are held by springs to where the round began: without force at rest.
+/// - E: static energy of FaceTissue, J; x: nodes, n x 3, m
+/// - B: inverse of H as last factored, at x or nearby, without its negative curvature
+///
+/// The method is L-BFGS with the metric B. Its first iteration is a Newton step; later iterations correct B for the new positions.
+/// Contact pairs are searched before each round of iterations and are fixed within it. H is factored again when a round gains too
+/// little. Nodes that keep snapping between the planes of two rounds are held by springs to their position at the start of the round;
+/// the springs exert no force in equilibrium.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,30 +31,29 @@ class StaticSolver {
     explicit StaticSolver(FaceTissue& tissue);
     ~StaticSolver();
 
-    /// Moves x to the equilibrium; the tissue must be prescribed, and x's fixed rows in place. Finds contacts.
+    /// Moves x to the equilibrium and finds the contacts there. The boundary conditions must be set, and fixed rows of x in place.
     StepStats solve_equilibrium(const Eigen::VectorXd& activation, const StaticOptions& options,
                                 Points& x);
 
-    /// Factors H at x with the contacts as they are; an exact one that is not positive gives way to its positive part.
+    /// Factors H at x with the present contacts. If the exact H is not positive definite, its positive part is factored.
     void factorise(const Points& x, const Eigen::VectorXd& activation, solve::Curvature first);
-    /// y = H^-1 b, n x 3 each, with the last factor; fixed rows of y are zero.
+    /// Computes y = H^-1 b, n x 3 each, with the last factor. Fixed rows of y are zero.
     void solve(const Points& b, Points& y) const;
-    /// The next solve_equilibrium() does not begin with the last factor: what it finds depends on its arguments alone.
+    /// Forgets the last factor, so that the result of the next solve_equilibrium() depends on its arguments alone.
     void forget() {
         known_ = false;
-        touched_
-            .clear();  // the order in which a matrix is eliminated tells what was in contact before
+        touched_.clear();  // the elimination order of the matrix depends on former contacts
     }
 
-    long factors() const { return factors_; }  ///< made so far
+    long factors() const { return factors_; }  ///< number of factorisations so far
 
   private:
     struct Linear;
-    /// Moves x near the equilibrium, unless it is there.
+    /// Moves x near the equilibrium. Does nothing if x is near already.
     void approach(const Eigen::VectorXd& activation, const StaticOptions& options, Points& x,
                   StepStats& figures);
-    /// Springs for nodes that are farther from where contacts were sought, stiffer ones for those that do not come nearer.
-    /// Says whether any is new or stiffer.
+    /// Adds springs for nodes farther than `more_than_m` from the last contact search. Stiffens the springs of nodes that do not come
+    /// nearer. Returns whether any spring is new or stiffer.
     bool hold_what_moved(const Points& x, double more_than_m);
     double energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient);
 
@@ -61,11 +63,11 @@ class StaticSolver {
     long factors_ = 0;
     std::vector<std::pair<int, int>> touched_;  ///< nodes of pairs that were in contact, sorted
     solve::QuasiNewton search_;
-    Points sought_;  ///< where contacts were found
-    struct Spring {  ///< to sought_
+    Points sought_;  ///< positions at the last contact search, n x 3, m
+    struct Spring {  ///< holds a node to its row of sought_
         int node;
         double n_per_m;
-        double away_m;  ///< where the last round took it
+        double away_m;  ///< distance from sought_ after the last round
     };
     std::vector<Spring> springs_;  ///< ascending nodes
     Points gradient_, move_;

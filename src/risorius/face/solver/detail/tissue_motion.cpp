@@ -19,7 +19,7 @@ void TissueMotion::start(const Points& x, const Rigid& head) {
     moved_before_ = Rigid::Identity();
 }
 
-// M, unless the head jumps: then as far from the M before as a great acceleration comes.
+// Returns M. If the head jumps, M is limited so that it differs from the M before by kMaxFelt_m_s2 at most.
 Rigid TissueMotion::felt(const Rigid& head) {
     const Rigid moved = head.isApprox(head_, 0.0) ? Rigid::Identity() : head.inverse() * head_;
     double jolt = 0;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The nodes' own motion through space while the head moves: what a step in the frame of the head aims at.
+/// Time integration of the tissue in the moving frame of the head, by BDF2 (second-order backward difference formula).
 ///
-///   H_n   head at step n, world from head          M = H_{n+1}^-1 H_n   what was at rest in space, seen from the next step
-///   x     positions, v velocities through space, both in the frame of the head of their step
-/// By the second backward difference (BDF2), with h' = 2h/3 and everything of former steps carried by M into the new frame,
-///   x_{n+1} = b_x + h' v_{n+1},  v_{n+1} = b_v + h' a_{n+1},    b = (4 (.)_n - (.)_{n-1}) / 3
-/// which is a step of implicit Euler of length h' from b_x that aims at b_x + h' b_v. Inertial forces of a head that turns or
-/// shakes (linear, angular, centrifugal, Coriolis) are in M, to the same order; none has to be written down.
+///     x_{n+1} = b_x + h' v_{n+1},   v_{n+1} = b_v + h' a_{n+1},   b = (4 (.)_n - (.)_{n-1}) / 3,   h' = 2h/3
+///
+/// - x, v, a: position, velocity and acceleration through space, in the head frame of their step; h: step, s
+/// - H_n: pose of the head at step n, world from head; M = H_{n+1}^-1 H_n: motion of a point at rest in space, seen from the head
+///
+/// M carries positions and velocities of former steps into the new frame. So all inertial forces of a moving head (linear, angular,
+/// centrifugal, Coriolis) are included to second order. A BDF2 step equals an implicit Euler step of length h' from b_x without
+/// forces reaching b_x + h' b_v.
 /// Source: Hairer & Wanner, Solving Ordinary Differential Equations II, V.1.
 #pragma once
 
@@ -18,28 +20,28 @@
 
 namespace risorius::face {
 
-/// A head that a script makes jump is felt no harder than this: ten times its weight.
+/// Maximum acceleration of the head that the tissue feels, ten times gravity. Scripts may let the head jump.
 inline constexpr double kMaxFelt_m_s2 = 98.1;
 
 class TissueMotion {
   public:
     TissueMotion(const Neck& neck, const Points& rest, double step_s);
 
-    /// At rest in space and in the head.
+    /// Starts at rest, in space and in the head frame. x: n x 3, m.
     void start(const Points& x, const Rigid& head);
 
     double effective_step_s() const { return 2 * step_s_ / 3; }  ///< h'
 
     struct Step {
-        Points start;     ///< b_x without the head's motion: tissue is strained from here
-        Points aim;       ///< b_x + h' b_v
-        Points expected;  ///< where the nodes will be if they go on as they did within the head
+        Points start;  ///< b_x without the motion of the head, n x 3, m: strain rates refer to it
+        Points aim;    ///< b_x + h' b_v, n x 3, m
+        Points expected;                  ///< linear extrapolation within the head frame, n x 3, m
         Rigid moved = Rigid::Identity();  ///< M
     };
     const Step& begin(const Rigid& head);
     void end(const Points& x);
 
-    /// Within the head, m/s.
+    /// Returns the velocity within the head frame, n x 3, m/s.
     Points velocity() const { return (now_ - before_) / step_s_; }
 
   private:
@@ -47,8 +49,8 @@ class TissueMotion {
 
     const Neck& neck_;
     double step_s_;
-    std::vector<double> fraction_;  ///< of the head's motion, by node
-    Points now_, before_;           ///< within the head
+    std::vector<double> fraction_;  ///< per node, fraction of the head's motion that it follows
+    Points now_, before_;           ///< positions in the head frame, m
     Points space_now_, space_before_, velocity_, velocity_before_;
     Rigid head_ = Rigid::Identity(), next_head_ = Rigid::Identity();
     Rigid moved_before_ = Rigid::Identity();

@@ -10,11 +10,11 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kThinnest_m = 0.25e-3;           ///< on each side
+constexpr double kThinnest_m = 0.25e-3;           ///< minimum thickness on each side
 constexpr double kUnderSkin_m = 0.8e-3;           ///< skin and the fat below it
-constexpr double kMinArea = 0.4, kMaxArea = 2.5;  ///< now over rest, for thickness
+constexpr double kMinArea = 0.4, kMaxArea = 2.5;  ///< limits of area / rest area in the thickness
 
-/// Rows cross columns: normals as long as the area a point stands for.
+/// Returns normals of the grid (rows x columns) whose length is the area of each point.
 std::vector<Vec3> areas_of(const SheetSize& size, const Points& grid) {
     std::vector<Vec3> areas;
     areas.reserve(static_cast<std::size_t>(size.points()));
@@ -31,7 +31,7 @@ std::vector<Vec3> areas_of(const SheetSize& size, const Points& grid) {
     return areas;
 }
 
-/// Ring of vertices of a row: over the sheet from the first column to the last, back under it.
+/// Returns the ring of vertices of a row: above the sheet from the first column to the last, and back below it.
 int ring_size(const SheetSize& size) { return 2 * (size.columns - 1); }
 
 Triangles tube(const SheetSize& size, double outward) {
@@ -43,7 +43,7 @@ Triangles tube(const SheetSize& size, double outward) {
             faces.push_back({a, a + ring, b});
             faces.push_back({b, a + ring, b + ring});
         }
-    // The ends: what is over a column against what is under it
+    // The end caps join the vertices above and below each column
     for (const int first : {0, (size.rows - 1) * ring})
         for (int j = 0; j + 1 < size.columns; ++j) {
             const auto over = [&](int column) { return first + column; };
@@ -67,7 +67,7 @@ Triangles tube(const SheetSize& size, double outward) {
     return triangles;
 }
 
-/// Share of the greatest thickness: rounded edges, thinner ends.
+/// Returns thickness / maximum thickness: edges are rounded and ends are thinner.
 double profile(const SheetSize& size, int row, int column, const Vec2& bone_ends) {
     const double across = size.across(column), s = size.along(row);
     const double edge = std::sqrt(std::max(0.0, 1 - std::pow(across, 4)));
@@ -134,7 +134,7 @@ void MuscleRibbons::add(std::variant<FibreSheet, BoneSheet> sheet, const rig::He
     Points grid;
     place_grid(strap, rest_points_, {}, grid);
 
-    // Which side is the skin's, and how much room there is below it
+    // The side that faces the skin, and the space below the skin
     const std::vector<Vec3> areas = areas_of(size, grid);
     double outward = 0;
     std::vector<double> depth;
@@ -169,7 +169,7 @@ void MuscleRibbons::add(std::variant<FibreSheet, BoneSheet> sheet, const rig::He
             const double piece = 0.0371 * static_cast<double>(straps_.size());
             fibre.row(i * ring_size(size) + k) << along,
                 piece + 0.5 * size.across(j) * size.width_m;
-            // Origins are fleshier than insertions.
+            // Origins are thicker than insertions
             const double from =
                 bone_ends[0] * (1 - geom::smoothstep(0.2 * tendon_m, 0.8 * tendon_m, along));
             const double to = bone_ends[1] * (1 - geom::smoothstep(0.5 * tendon_m, 1.5 * tendon_m,

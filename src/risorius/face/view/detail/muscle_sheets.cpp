@@ -12,7 +12,7 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kSpacing_m = 3.0e-3;  ///< of rows, and of columns in the middle
+constexpr double kSpacing_m = 3.0e-3;  ///< distance of rows, and of columns in the middle
 
 SheetSize sheet_size(double length_m, double width_m) {
     SheetSize size;
@@ -23,7 +23,7 @@ SheetSize sheet_size(double length_m, double width_m) {
     return size;
 }
 
-// Corners are round: the share of the width there is at a distance from the nearer end.
+// Returns width / full width at a distance from the nearer end: corners are round.
 double outline(const SheetSize& size, double along) {
     const double corner = std::min(0.5 * size.width_m, 0.3 * size.length_m);
     const double gone = 1.0 - std::min(1.0, std::min(along, 1 - along) * size.length_m / corner);
@@ -38,7 +38,7 @@ void catmull_rom(double t, double weight[4]) {
     weight[3] = 0.5 * (-t2 + t3);
 }
 
-/// Place `at` among `count` knots, 0..count - 1; straight on beyond the ends, where `at` may lie too.
+/// Interpolates at position `at` among `count` knots, 0..count - 1; extrapolates linearly beyond the ends.
 template <typename Mix>
 Mix mix_of(double at, int count, int first) {
     Mix mix;
@@ -138,7 +138,7 @@ geom::SurfaceTree outer_skin(const rig::Head& head) {
         const Vec3 a = head.vertices.row(head.skin(f, 0)), b = head.vertices.row(head.skin(f, 1)),
                    c = head.vertices.row(head.skin(f, 2));
         Vec3 away = (a + b + c) / 3;
-        away.y() *= 0.3;  // a head is more of a column than of a ball
+        away.y() *= 0.3;  // a head is closer to a column than to a sphere
         away.z() -= head.mm(20);
         if ((b - a).cross(c - a).normalized().dot(away.normalized()) > 0.2) outer.push_back(f);
     }
@@ -155,7 +155,7 @@ BoneSheet::BoneSheet(const rig::Head& head, const rig::Muscle& muscle, const rig
     const std::vector<Vec3> curve = geom::sample_curve(knots, head.mm(0.5));
     size_ = sheet_size(length_of(curve), head.size * muscle.width_m);
 
-    // The centre line, what it rides on, and which way the skin is
+    // The centre line, the bone it follows, and the direction of the skin
     const int count = static_cast<int>(knots.size());
     std::vector<Vec3> outward;
     for (int row = 0; row < size_.rows; ++row) {
@@ -183,7 +183,7 @@ BoneSheet::BoneSheet(const rig::Head& head, const rig::Muscle& muscle, const rig
                     .normalized();
     }
 
-    // A fan is widest at its origin and gathers on the coronoid process; other muscles are spindles.
+    // A fan is widest at its origin and converges on the coronoid process; other muscles are spindles
     const bool fan = muscle.id.starts_with("temporalis");
     std::vector<Vec3> flat;
     Eigen::MatrixXd shift(size_.rows, size_.columns);
@@ -196,7 +196,7 @@ BoneSheet::BoneSheet(const rig::Head& head, const rig::Muscle& muscle, const rig
         const double width = fan ? 1.35 - 1.05 * geom::smoothstep(0.1, 0.9, s)
                                  : 0.6 + 0.4 * std::sin(std::numbers::pi * s);
         const double half = 0.5 * size_.width_m * width * outline(size_, s);
-        // Near the skin it lies as deep beside its centre line as on it.
+        // Near the skin, points beside the centre line lie as deep as those on it
         const double depth = (skin.closest(centre_[i])->point - centre_[i]).norm();
         const double follows = 1.0 - geom::smoothstep(head.mm(14), head.mm(24), depth);
         for (int column = 0; column < size_.columns; ++column) {
@@ -206,7 +206,7 @@ BoneSheet::BoneSheet(const rig::Head& head, const rig::Muscle& muscle, const rig
             shift(row, column) = follows * std::clamp(ahead - depth, -head.mm(18), head.mm(6));
         }
     }
-    for (int pass = 0; pass < 6; ++pass) {  // ears and cheek bones are not its own
+    for (int pass = 0; pass < 6; ++pass) {  // smooths out the relief of ears and cheek bones
         const Eigen::MatrixXd rough = shift;
         const auto at = [&](int row, int column) {
             return rough(std::clamp(row, 0, size_.rows - 1),
@@ -231,7 +231,7 @@ void BoneSheet::place(const BoneMotion& bones, Points& grid) const {
     for (std::size_t i = 0; i < centre_.size(); ++i)
         centre[i] = centre_[i] + fraction_[i] * (bones.mandible * centre_[i] - centre_[i]) +
                     hyoid_fraction_[i] * bones.hyoid_m;
-    // As much wider (and thicker) as keeps its volume when it is shorter, but for its ends on the bone
+    // A shorter muscle is wider and thicker, so that its volume is constant; its ends on bone keep their width
     const double wider = std::sqrt(size_.length_m / std::max(1e-4, length_of(centre))) - 1;
     grid.resize(size_.points(), 3);
     for (int row = 0; row < size_.rows; ++row) {

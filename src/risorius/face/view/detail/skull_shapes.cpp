@@ -256,7 +256,7 @@ const SkullShapes& standard_skull_shapes() {
 BoneFields skull_fields(const SkullShapes& shapes, const Vec3& p_mm) {
     const Vec3 p = one_side(p_mm);
     const SkullShapes::Rounding& rounding = shapes.rounding;
-    // The braincase, hollowed at the temples
+    // The braincase with the hollows of the temples
     double braincase = ellipsoid(p, shapes.braincase);
     braincase = smooth_cut(braincase, -(p.y() - shapes.braincase_floor), rounding.braincase_floor);
     const double base = ellipsoid(p, shapes.skull_base);

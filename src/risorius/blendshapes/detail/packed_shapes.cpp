@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/blendshapes/detail/blend_shape_player.h"
+#include "risorius/blendshapes/detail/packed_shapes.h"
 
 namespace risorius::blendshapes {
 
-BlendShapePlayer::BlendShapePlayer(const BlendShapeRig& rig) {
+PackedShapes::PackedShapes(const BlendShapeRig& rig) {
     const auto add = [&](const SparseShape& from) {
         Shape& shape = shapes_.emplace_back();
         for (std::size_t i = 0; i < from.vertex.size(); ++i) {
@@ -18,7 +18,7 @@ BlendShapePlayer::BlendShapePlayer(const BlendShapeRig& rig) {
     for (const Corrective& corrective : rig.correctives) add(corrective.shape);
 }
 
-void BlendShapePlayer::add_to(Points& vertices, const Eigen::VectorXd& all_weights) const {
+void PackedShapes::add_to(Points& vertices, const Eigen::VectorXd& all_weights) const {
     for (std::size_t s = 0; s < shapes_.size(); ++s) {
         const double weight = all_weights[static_cast<long>(s)];
         if (weight == 0) continue;

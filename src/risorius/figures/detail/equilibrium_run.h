@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Brings a body to rest under what acts on it: by moving in time or by solving for equilibrium, as its integrator says.
+/// Brings a body into equilibrium under its loads, either by simulation or by a static solver, as its integrator says.
 #pragma once
 
 #include "risorius/figures/detail/run_options.h"
@@ -12,12 +12,12 @@ namespace risorius::figures {
 struct EquilibriumRun {
     Points x;
     solve::IntegratorReport report;
-    double speed_ratio = 0;  ///< fastest node times 1 s over the body's length
-    double force_ratio =
-        0;  ///< greatest force on a free node at rest, over the whole weight (or over 1 N without weight)
+    double speed_ratio = 0;  ///< maximum speed of a node times 1 s, over the body's length
+    /// Maximum residual force on a free node over the total weight (over 1 N for a body without weight)
+    double force_ratio = 0;
 };
 
-/// Moves for `duration_s`; the quasi-static method needs one call whatever the duration.
+/// Simulates for `duration_s`. The quasi-static method solves once, whatever the duration.
 EquilibriumRun run_to_equilibrium(const softbody::SoftBody& body,
                                   solve::IntegratorOptions integrator, double duration_s,
                                   const RunOptions& options);

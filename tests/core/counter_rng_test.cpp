@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
 #include "risorius/core/counter_rng.h"
+
+#include <gtest/gtest.h>
 
 namespace risorius {
 namespace {

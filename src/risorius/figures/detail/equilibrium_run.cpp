@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/figures/detail/settle.h"
+#include "risorius/figures/detail/equilibrium_run.h"
 
 #include <algorithm>
 
 namespace risorius::figures {
 namespace {
 
-constexpr int kPieces = 20;  // between which a run can be stopped
+constexpr int kPieces = 20;  // a run can be interrupted between these parts
 
 }  // namespace
 
