@@ -11,7 +11,7 @@
 namespace risorius::rig {
 
 struct HeadFrame {
-    /// Head = rotation * (mesh units * metres_per_unit) + translation
+    /// Position in the head frame = rotation * (position in the mesh * metres_per_unit) + translation
     Mat3 rotation = Mat3::Identity();
     Vec3 translation = Vec3::Zero();  ///< m
     double metres_per_unit = 1.0;
@@ -26,7 +26,7 @@ struct HeadFrame {
 };
 
 /// Fits the given landmarks (mesh units) to the atlas by a rigid motion with scale. The landmarks are made symmetric first. The
-/// scale is returned as `size`.
+/// inverse of the scale is returned as HeadFrame::size.
 HeadFrame find_head_frame(const std::map<std::string, Vec3>& landmarks, const Atlas& atlas,
                           double metres_per_unit);
 
