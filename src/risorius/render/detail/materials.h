@@ -22,7 +22,7 @@ class Materials {
     /// (skin_layer.h).
     enum class Skin { kPlain, kVeil, kLayer };
     /// `draft`: skin is lit at its vertices, unless it is a veil. `shaded_m`: distance between the shaded places of the skin.
-    /// `constants`: of Lights.
+    /// `constants`: those of Lights.
     Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin, bool draft,
               double shaded_m, const ShaderConstants& constants, const MuscleLayer* muscles);
 

@@ -15,7 +15,8 @@ namespace risorius::render {
 
 class SocketLayer {
   public:
-    /// Nothing is drawn for eyes that are missing or have no lid landmarks. `constants`: of Lights. The context must be current.
+    /// Nothing is drawn for eyes that are missing or have no lid landmarks. `constants`: those of Lights. The context must be
+    /// current.
     SocketLayer(const Scene& scene, const PosedMarks& marks, const ShaderConstants& constants);
 
     void upload(const Pose& pose, const PosedMarks& marks);
