@@ -85,7 +85,8 @@ std::vector<Vec3> curve_points(const std::vector<std::pair<double, Vec3>>& throu
 /// likewise. The groups are "skin" and "mouth".
 geom::PolygonMesh mirrored(const HalfMesh& half);
 
-/// Returns, for each vertex of the mirrored mesh, the index of the vertex that is its mirror image.
+/// Returns, for each vertex of the half, the index of its mirror image in the mesh of mirrored(); a vertex of the midline is its
+/// own one.
 std::vector<int> mirror_map(const HalfMesh& half);
 
 }  // namespace risorius::headmodel
