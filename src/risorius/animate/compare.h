@@ -9,8 +9,8 @@
 
 namespace risorius::animate {
 
-/// The two sides may differ in script and rig. Size, rate, coding and sound are those of the left side. The video lasts as long as
-/// the longer side; the shorter one stays at its last frame.
+/// The two sides may differ in script and rig. Size, frame rate, coding and sound are those of the left side. The video lasts as
+/// long as the longer side; the shorter side stays at its last frame.
 ///
 /// Writes left.out, OUT.json (the records of both sides), OUT.left.frames.tsv and OUT.right.frames.tsv. Throws Error, RunError and
 /// Interrupted.

@@ -10,7 +10,7 @@ namespace risorius::animate {
 
 struct FrameRows {
     std::vector<std::string> names;
-    /// Text as written, one cell per column in each row
+    /// The cells of each row as text, one per column
     std::vector<std::vector<std::string>> cells;
 
     int rows() const { return static_cast<int>(cells.size()); }
@@ -21,7 +21,8 @@ struct FrameRows {
 /// Parses a table. `table`: the text of FrameTable::text().
 FrameRows frame_rows(const std::string& table);
 
-/// For each frame: the maximum displacement of a landmark from the first frame, m. Zeros without landmarks.
+/// Returns, for each frame, the largest displacement of a landmark since the first frame, m. All are 0 for a table without
+/// landmarks.
 std::vector<double> max_landmark_displacements(const FrameRows& rows);
 
 /// Onset: the first frame in which a landmark has moved by 0.3 mm, or by 5 % of its maximum if that is less. Apex: the first frame

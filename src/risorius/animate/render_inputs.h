@@ -16,7 +16,7 @@
 
 namespace risorius::animate {
 
-/// A script as parsed, not yet checked against a rig.
+/// A script that has been parsed, but not yet checked against a rig.
 struct ScriptInput {
     JsonCursor json;
     std::string sha256;  ///< of the bytes of the file
@@ -29,7 +29,7 @@ struct RigInput {
     std::vector<InputFile> tables;  ///< other files that the rig names
 };
 
-/// Keeps the files that it has read. Several threads may use the same object.
+/// Reads files and keeps them. Several threads may use the same object.
 class RenderInputs {
   public:
     /// Throws Error when the file cannot be read or is not JSON.
@@ -43,7 +43,7 @@ class RenderInputs {
     std::map<std::filesystem::path, std::shared_ptr<const RigInput>> rigs_;
 };
 
-/// The SHA-256 of text or other bytes, in hexadecimal.
+/// Returns the SHA-256 of text or other bytes, as hexadecimal digits.
 std::string sha256_of_text(const std::string& text);
 
 }  // namespace risorius::animate

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// One render, planned: everything that a run needs is read and checked before it begins.
+/// The plan of one render. Everything that the run needs is read and checked before it begins.
 #pragma once
 
 #include <memory>
@@ -20,12 +20,12 @@ namespace risorius::animate {
 struct RenderJob {
     // Inputs
     InputFile script_file;
-    /// As written in the file; the fields below hold the changes of the request
+    /// The script as its file has it; changes by the request are in the fields below
     track::ScriptDescription script;
     std::shared_ptr<const RigInput> rig;
     std::vector<InputFile> recordings;  ///< recordings that the script names
     std::optional<InputFile> shapes;    ///< blend shapes that play the script
-    /// For show "error": the script to compare with
+    /// The script to compare with when "error" is shown
     std::optional<track::ScriptDescription> reference;
 
     // Frames
@@ -40,7 +40,7 @@ struct RenderJob {
     double shutter_deg = 0;
     static constexpr int kShutterMoments = 9;
     int moments() const { return shutter_deg > 0 ? kShutterMoments : 1; }
-    /// Offset of a moment from the time of its frame, in frames.
+    /// Returns the offset of a moment from the time of its frame, in frames.
     double moment_offset(int moment) const {
         return shutter_deg / 360 * (moment - (moments() - 1) / 2) / moments();
     }
@@ -52,7 +52,7 @@ struct RenderJob {
     // Simulation and view
     std::string quality;  ///< a name of face::quality_named()
     render::ViewOptions view;
-    std::optional<double> scale;  ///< where the colours of strain (ratio) or error (mm) end
+    std::optional<double> scale;  ///< end of the colour scale of strain (ratio) or error (mm)
     SyncMarks marks;
     bool flipped_motion = false;  ///< see RenderRequest
     int threads = 2;
@@ -67,15 +67,15 @@ struct RenderJob {
 
     double planning_s = 0;  ///< time that plan_render_job() took
 
-    std::string background_text() const;  ///< as written in a script
+    std::string background_text() const;  ///< the background as a script names it
 };
 
 /// Reads every input once, checks it and the request, and rejects what would otherwise fail after minutes of rendering. Only the
-/// blend shapes and the folder of passes are opened later, because they need the face. Throws Error naming the option, or the
-/// file and the place in it.
+/// blend shapes and the folder of passes are opened later, because they need the face. Throws Error; the message names the
+/// option, or the file and the place in it.
 RenderJob plan_render_job(const RenderRequest& request);
 
-/// The same for several jobs; files that they share are read once.
+/// Does the same with `inputs` that several jobs share, so that each file is read once.
 RenderJob plan_render_job(const RenderRequest& request, RenderInputs& inputs);
 
 }  // namespace risorius::animate

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What renders of the same face share: the face, its scene, and the views with their baked data.
+/// The objects that several renders of the same face share: the face, its scene, and the views with their baked data.
 ///
-/// A job leaves no traces in the next one: the face starts anew, and views keep nothing of a frame.
+/// A job does not influence the next one: the face starts again from rest, and views keep nothing of a frame.
 #pragma once
 
 #include <memory>
@@ -16,17 +16,17 @@
 
 namespace risorius::animate {
 
-/// Keeps the last face, scene and views, and makes new ones when a job needs others.
+/// Keeps the face, the scene and the views of the last job, and makes new ones when a job needs others.
 class RenderSession {
   public:
-    /// The face of a rig and quality. Throws Error when it cannot be built.
+    /// Returns the face for a rig and a quality. Throws Error when it cannot be built.
     face::Face& face(std::shared_ptr<const RigInput> rig, const face::Quality& quality);
-    /// The scene of that face, with capacity for `views` views. The first view is made at once, the others by view().
+    /// Returns the scene of that face and prepares for `views` views of it. The first view is made at once, the others by view().
     const render::Scene& scene(const render::ViewOptions& view, int views);
     render::OffscreenView& view() { return *views_[0]; }
-    /// The view of one of the drawing threads; call it on that thread.
+    /// Returns the view of one of the drawing threads. Call it on that thread.
     render::OffscreenView& view(int worker);
-    /// The skull of the scene; empty unless its bones are shown.
+    /// Returns the skull of the scene; empty unless its bones are shown.
     const std::optional<face::Skull>& skull() const { return skull_; }
 
   private:

@@ -19,13 +19,13 @@ namespace risorius::animate {
 /// The stage that the monitor reports while frames are drawn.
 inline constexpr const char* kRendering = "rendering";
 
-/// Receives the pictures in order; with several threads it is called on a thread of its own.
+/// A function that receives the pictures in order. With several threads, it is called on a thread of its own.
 using UsePicture = std::function<void(Image)>;
 
 struct RenderResult {
     RunRecord record;
     std::string table;  ///< the text of frame_table.h
-    /// Complete, but not yet committed; null when the job has none.
+    /// Complete, but not yet given its final name (PassWriter::commit()); null when the job has no passes
     std::unique_ptr<PassWriter> passes;
 };
 

@@ -18,7 +18,7 @@ struct SheetOptions {
     std::vector<std::filesystem::path> scripts;  ///< at least one
     std::vector<std::filesystem::path> rigs;     ///< empty: each script with its own rig
     std::vector<double> times_s;                 ///< at least one, in the order of the columns
-    /// Empty: the camera of `view`; else every time is shown by each camera
+    /// Names of cameras; each time is shown from each of them. Empty: the camera of `view`
     std::vector<std::string> cameras;
     /// .png files to compare with, in rows of their own
     std::vector<std::filesystem::path> beside;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// `risorius shapes`: makes blend shapes from a rig, with a certificate, in the file formats that other programs read.
+/// The program `risorius shapes`. It makes blend shapes from a rig, measures their quality (shape_certificate.h), and writes them
+/// in the file formats that other programs read.
 #pragma once
 
 #include <filesystem>
@@ -18,15 +19,16 @@ namespace risorius::blendshapes {
 
 /// Options of bake_shapes().
 struct ShapesOptions {
-    std::filesystem::path rig = {}, out = {};  ///< out: a folder
+    std::filesystem::path rig = {}, out = {};  ///< the rig file, and the folder to write
     std::string set = "arkit52";
     std::vector<std::string> only = {};     ///< names of shapes; empty: the whole set
     std::string quality = "preview";        ///< face::quality_named(): the mesh of the simulation
-    std::vector<std::string> formats = {};  ///< of shape_formats(); empty: all but "cache"
-    bool floats = false;                    ///< in the .glb, instead of 16-bit integers
+    std::vector<std::string> formats = {};  ///< names of shape_formats(); empty: all but "cache"
+    /// True: the .glb holds displacements as floats instead of 16-bit integers
+    bool floats = false;
     bool pictures = true;
     bool correctives = true;
-    /// These replace the values of correctives_of_set().
+    /// Values that replace those of correctives_of_set().
     std::optional<int> pairs = {};
     std::optional<double> corrective_tolerance_m = {};
     std::optional<long> corrective_bytes = {};
@@ -36,7 +38,7 @@ struct ShapesOptions {
     int threads = 0;  ///< 0: as many as the machine has; results do not depend on it
 };
 
-/// The formats "glb", "obj", "table"; with a script also "csv" and "cache".
+/// The names of the formats: "glb", "obj", "table", and for a script also "csv" and "cache".
 const std::vector<std::string>& shape_formats();
 
 /// What was made, and how well it agrees with the simulation.
@@ -47,15 +49,15 @@ struct ShapesReport {
     MadeShapes shapes;
     Correctives correctives;                  ///< the shapes and their correctives
     std::vector<TrackError> tracks;           ///< errors of the blend shapes against the simulation
-    std::optional<ShapeAnimation> animation;  ///< converted from the script
+    std::optional<ShapeAnimation> animation;  ///< the script converted to weights
     std::vector<std::pair<std::string, std::string>> left_out;  ///< name and reason
     int vertices = 0, nodes = 0;
     double solving_s = 0;                             ///< wall time
     std::vector<std::pair<std::string, long>> sizes;  ///< file, bytes
 
-    /// Number of shapes with a value beyond a limit.
+    /// Returns the number of shapes with a measured value beyond its limit.
     int complaints() const;
-    /// The report without times, so that the same rig gives the same bytes.
+    /// Returns the report without times, so that the same rig gives the same bytes.
     Json json() const;
 };
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Plays scripts with blend shapes instead of the simulation. The drive becomes weights; shapes and correctives are added; eyes,
-/// head and neck move as in the simulated face.
+/// Plays scripts with blend shapes instead of the simulation. The drive is converted to weights, and the displacements of shapes
+/// and correctives are added to the mesh at rest. Eyes, head and neck move as in the simulated face.
 ///
-/// A face is built for the conversion to weights (shape_weights.h) and for eyes and neck, but it is not simulated.
+/// A face::Face is built, because the conversion to weights (shape_weights.h) and the motion of eyes and neck need it. It is not
+/// simulated.
 #pragma once
 
 #include <filesystem>
@@ -25,8 +26,8 @@ struct ShapesOfFile {
     blendshapes::BlendShapeRig rig;  ///< on the vertices of the mesh
 };
 
-/// Reads such a file. Throws Error when `risorius shapes` has not written it, when it belongs to another mesh, or when it has
-/// shapes that the tables of the rig do not know.
+/// Reads such a file. Throws Error when the file is not one that `risorius shapes` has written, when it belongs to another mesh,
+/// or when it has shapes that the tables of the rig do not have.
 ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const scene::RigFiles& files,
                                  const rig::Head& head);
 

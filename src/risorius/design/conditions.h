@@ -34,11 +34,11 @@ struct Condition {
     double audio_start_s = 0;                    ///< the time of its first sample
 };
 
-/// All clips of a design. Throws Error for names that are invalid or not unique, for unknown parameters and for too many
+/// Returns all clips of a design. Throws Error for names that are invalid or not unique, for unknown parameters and for too many
 /// conditions.
 std::vector<Condition> conditions_of(const Design& design);
 
-/// Text as a part of a clip's name: "0.25" -> "0p25", "zygomaticus_major.l" -> "ZygomaticusMajorL", -3 -> "m3".
+/// Converts text to a part of a clip's name: "0.25" -> "0p25", "zygomaticus_major.l" -> "ZygomaticusMajorL", -3 -> "m3".
 std::string clip_word(const std::string& text);
 
 }  // namespace risorius::design

@@ -34,13 +34,13 @@ struct ConditionSet {
     /// Parameters of this set; they take precedence over those of the design
     std::vector<Given> parameters;
     std::vector<Factor> factors;
-    /// Rows of the table "conditions"; without a table, one empty row
+    /// Rows of the table "conditions"; one empty row if there is no table
     std::vector<std::vector<Given>> rows;
-    /// Only combinations that satisfy all of these relations are used
+    /// Relations between levels (crossing.h); only combinations that satisfy all of them are used
     std::vector<Relation> fraction = {};
     std::optional<int> draw;  ///< number of combinations that are chosen at random
     std::vector<Override> overrides;
-    std::string clip;  ///< pattern for the names of clips
+    std::string clip;  ///< pattern of the names of clips; it may contain ${names}
     std::vector<Control> controls;
     std::optional<JsonCursor> audio;          ///< a WAV or FLAC file; may contain ${names}
     std::optional<JsonCursor> audio_start_s;  ///< time of its first sample, or a formula
@@ -60,10 +60,11 @@ struct ClipOptions {
 /// Matches mean and standard deviation of luminance (media/luminance.h) by an affine function of linear light, one for all clips
 /// or one per clip. Only conditions are measured; controls are mapped by the same function.
 struct LuminanceMatch {
-    /// Measure within the oval of the face instead of the whole picture
+    /// True: only the oval of the face is measured, not the whole picture
     bool within_face = false;
     bool per_clip = false;
-    std::optional<double> mean, sd;  ///< targets, (0, 1); not given: those of the set
+    /// Targets, (0, 1); if they are not given, they are computed from the whole set
+    std::optional<double> mean, sd;
 };
 
 /// What is made equal in all clips.
@@ -72,7 +73,7 @@ struct Match {
     std::optional<double> loudness_lufs;  ///< target loudness of the sound of each clip
 };
 
-/// The example experiment: what is shown to a participant, and the question.
+/// The example experiment: what is shown to a participant, and which question is asked.
 struct ExperimentOptions {
     std::vector<std::string> programs;  ///< "psychopy", "jspsych"
     std::string question = "Which one was it?";

@@ -25,13 +25,13 @@ struct ShownFigure {
     std::string published;
 };
 
-/// The complete HTML page.
+/// Returns the complete HTML page.
 std::string figure_page(const std::vector<ShownFigure>& figures);
 
-/// The accepted range of a check in words: "8 to 13 %", "at most 5 %", "at least 2".
+/// Returns the accepted range of a check in words: "8 to 13 %", "at most 5 %", "at least 2".
 std::string range_text(const figures::Check& check);
 
-/// A number for people, with four significant digits or as many as requested: "10.82", "0.0002", "1.2e-09".
+/// Returns a number as text for people, with `digits` significant digits: "10.82", "0.0002", "1.2e-09".
 std::string short_number(double value, int digits = 4);
 
 }  // namespace risorius::figures

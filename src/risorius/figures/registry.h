@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The figures of the thesis, and the kinds of experiment that make them. An experiment file says what is run, what is measured
-/// and what was published. Users can run their own files in the same way:
+/// The figures of the thesis, and the kinds of experiment that make them. In this folder, "the thesis" is M. Dobsik, Computer
+/// Animation of Soft Tissues, Brno 2005. An experiment file says what is run, what is measured and what was published. Users can
+/// run files of their own in the same way:
 ///
 ///   {"format": "risorius-experiment", "version": 1, "figure": "9b", "kind": "volume-history", "title": "...", ...}
 ///
@@ -17,7 +18,8 @@
 
 namespace risorius::figures {
 
-/// Where a figure comes from: the thesis, or beyond it; kOwn: it does not come with the program
+/// Where a figure comes from. kThesis: it is a figure of the thesis. kBeyond: it comes with the program, but is not in the
+/// thesis. kOwn: it comes from a user's file.
 enum class Origin { kThesis, kBeyond, kOwn };
 
 /// A figure that comes with the program, in samples/figures/ID/experiment.json.
@@ -25,7 +27,7 @@ struct Figure {
     std::string_view id;     ///< "9b"
     std::string_view title;  ///< one line that says what it shows
     std::string_view kind;   ///< kind of experiment
-    double run_time_s;       ///< approximate, on two cores
+    double run_time_s;       ///< approximate wall time on two cores
     Origin origin = Origin::kThesis;
 };
 

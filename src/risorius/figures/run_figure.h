@@ -8,7 +8,7 @@
 ///   DIR/*.csv *.svg *.png *.gp
 ///   DIR/timing.json      run time: the only file that differs between two runs
 ///
-/// With several figures, each has such a folder below DIR, and DIR itself has a page of all.
+/// When several figures are run, each has such a folder below DIR, and DIR itself has a page that shows all of them.
 #pragma once
 
 #include <filesystem>
@@ -51,9 +51,9 @@ struct FigureReport {
     std::vector<FailedCheck> failed;
 };
 
-/// Runs figures and writes `out` completely or not at all. Values outside their ranges are a result, not an error. Throws Error
-/// for an unknown figure, a wrong experiment or an `out` that cannot be used, RunError when writing or drawing fails, Interrupted
-/// when the monitor asks to stop.
+/// Runs figures and writes the folder `out` completely or not at all. A value outside its range is not an error; it is listed in
+/// FigureReport::failed. Throws Error for an unknown figure, a wrong experiment or an `out` that cannot be used, RunError when
+/// writing or drawing fails, Interrupted when the monitor asks to stop.
 FigureReport run_figures(const FigureOptions& options, const ProgressMonitor& monitor = {});
 
 struct FigureEntry {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Makes a muscle rig from any face mesh with landmarks.
+/// Makes a rig with muscles from any mesh of a head with landmarks.
 #pragma once
 
 #include <filesystem>
@@ -23,16 +23,16 @@ struct FitOptions {
     std::filesystem::path standard{};
     std::optional<double> metres_per_unit{};  ///< none: estimated from the landmarks
     std::string name{};                       ///< empty: the name of the mesh file
-    /// Role -> groups; other roles are guessed from the names of groups
+    /// A map from role to names of mesh groups; roles that are not given are guessed from the names of groups
     std::map<std::string, std::vector<std::string>> parts{};
     bool inline_tables = true;  ///< false: refer to the standard tables by path
     bool calibrate = true;
-    /// After each muscle separately, calibrate all muscles together, see fit_strengths.h
+    /// True: after each muscle has been calibrated alone, all are calibrated together, see fit_strengths.h
     bool together = true;
-    /// Separate closed lips of a scan; the cut mesh is written next to the rig
+    /// True: closed lips of a scan are separated (rig/cut_lips.h); the cut mesh is written next to the rig
     bool cut_lips = false;
     std::filesystem::path report{};  ///< folder for a page with pictures; empty: none
-    /// Use the volume muscles of the standard table, not only bundles of fibres
+    /// True: the muscles that the standard table lists as solids are simulated as solids, not as bundles of fibres
     bool solids = false;
 };
 

@@ -19,7 +19,8 @@ struct PartGuess {
     std::vector<std::string> notes;  ///< groups without a role, and the reason
 };
 
-/// The role that the name of a group suggests, or "". Eyes and corneas without a side in the name give "eye" and "cornea".
+/// Returns the role that the name of a group suggests, or "". Eyes and corneas without a side in the name give "eye" and
+/// "cornea".
 std::string role_suggested_by(const std::string& group);
 
 /// Guesses all roles. Roles of `given` take precedence. The only group of a mesh is skin. `left_of` is positive for points to the

@@ -16,7 +16,7 @@
 
 namespace risorius::geom {
 
-/// The closest point of one triangle.
+/// The point of a triangle that is closest to a given point.
 struct TrianglePoint {
     Vec3 point = Vec3::Zero();
     Vec3 barycentric = Vec3::Zero();  ///< weights of the three corners, each >= 0, sum 1
@@ -33,7 +33,7 @@ struct SurfacePoint : TrianglePoint {
 /// Where a ray hits a surface.
 struct RayHit {
     int triangle = -1;
-    double distance = 0.0;  ///< along the ray, in units of the length of `direction`
+    double distance = 0.0;  ///< distance along the ray as a multiple of the length of `direction`
     Vec3 barycentric = Vec3::Zero();
     Vec3 point = Vec3::Zero();
 };
@@ -44,15 +44,16 @@ class SurfaceTree {
     SurfaceTree() = default;
     SurfaceTree(const Points& positions, const Triangles& triangles);
 
-    /// Moves the triangles. The tree is kept and its boxes are updated: faster than a new tree, but slower to search after a
-    /// large deformation.
+    /// Moves the triangles to new positions and updates the boxes of the tree. This is faster than building a new tree, but
+    /// queries are slower after a large deformation.
     void refit(const Points& positions);
 
-    /// The closest point; empty when nothing lies within `max_distance`, or when there are no triangles.
+    /// Returns the closest point of the surface; nothing when no triangle lies within `max_distance`.
     std::optional<SurfacePoint> closest(
         const Vec3& p, double max_distance = std::numeric_limits<double>::infinity()) const;
 
-    /// The first triangle that the ray hits in [0, max_distance], from either side.
+    /// Returns the first hit of the ray on either side of a triangle, with RayHit::distance in [0, max_distance]; nothing when
+    /// there is none.
     std::optional<RayHit> cast(const Vec3& origin, const Vec3& direction,
                                double max_distance = std::numeric_limits<double>::infinity()) const;
 
@@ -61,7 +62,8 @@ class SurfaceTree {
   private:
     struct Node {
         Vec3 low, high;
-        int first = 0;  ///< leaf: first index in order_; else left child, followed by the right one
+        /// Leaf: first index in order_; inner node: index of the left child, which the right child follows
+        int first = 0;
         int count = 0;  ///< triangles of a leaf; 0 for an inner node
     };
 
@@ -81,17 +83,18 @@ struct SurfaceBinding {
     Vec3 offset = Vec3::Zero();  ///< m, in triangle_frame()
 };
 
-/// Columns: along side 0, perpendicular to it in the plane, normal. The identity for a triangle without area.
+/// Returns the axes of a triangle as columns: along its side a b, perpendicular to it in the plane, and normal. It is the
+/// identity for a triangle without area.
 Mat3 triangle_frame(const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Binds p to the surface at a given foot point.
+/// Binds p to the surface at the foot point `foot`, a point of the surface.
 SurfaceBinding bind_to_surface(const Vec3& p, const SurfacePoint& foot, const Points& positions,
                                const Triangles& triangles);
 /// Binds each point to the nearest triangle. `tree` must be of the same surface and must not be empty.
 std::vector<SurfaceBinding> bind_to_surface(const Points& points, const SurfaceTree& tree,
                                             const Points& positions, const Triangles& triangles);
 
-/// Current position of the bound point for these vertex positions, m.
+/// Returns the position of the bound point, m, when the surface has the given positions.
 Vec3 bound_point(const SurfaceBinding& binding, const Points& positions,
                  const Triangles& triangles);
 

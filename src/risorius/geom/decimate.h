@@ -14,11 +14,11 @@ namespace risorius::geom {
 
 /// Limits of collapsing and flipping.
 struct DecimateOptions {
-    /// Maximum angle between the normal of a triangle and that of its original surface.
+    /// Maximum angle between the normal of a triangle and the normal of the original surface there.
     double max_normal_turn_deg = 50;
-    /// Maximum distance of a removed boundary vertex from the new edge / wanted length.
+    /// Maximum distance of a removed boundary vertex from the new boundary edge, over the wanted length.
     double boundary_tolerance = 0.25;
-    double longest_edge = 1.6;  ///< maximum length of an edge / wanted length
+    double longest_edge = 1.6;  ///< maximum length of an edge over the wanted length
 };
 
 /// The coarse surface, and where the vertices of the fine one went.
@@ -29,9 +29,9 @@ struct Decimated {
     std::vector<int> collapsed_to;
 };
 
-/// `length`: wanted edge length at each vertex, m. Vertices in `keep` (V, may be empty) are never removed. Vertices in `seam`
-/// (V, may be empty) lie on an edge at which another surface will be joined. They collapse only along it, and it remains an
-/// edge.
+/// Coarsens a surface. `points`: V x 3, m. `length`: V, wanted edge length at each vertex, m. Vertices in `keep` (V, may be
+/// empty) are never removed. Vertices in `seam` (V, may be empty) lie on an edge at which another surface will be joined. They
+/// collapse only along it, and it remains an edge.
 Decimated decimate(const Triangles& triangles, const Points& points,
                    const std::vector<double>& length, const std::vector<char>& keep,
                    const DecimateOptions& options = {}, const std::vector<char>& seam = {});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The best-fitting sphere of points: least squares of |p - c|^2 - r^2.
+/// Fits a sphere with centre c and radius r to points p by least squares of |p - c|^2 - r^2.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ struct Sphere {
     double radius = 0;
 };
 
-/// Needs at least four points that do not lie in one plane.
+/// Returns the sphere in the unit of the points. They must be at least four points that do not all lie in one plane.
 Sphere fitted_sphere(const std::vector<Vec3>& points);
 
 }  // namespace risorius::geom

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Checks of a face mesh before a rig is built on it. They give errors, warnings and notes.
+/// Checks the mesh of a head before a rig is built on it. The findings are errors, warnings and notes. In this file, a face is a
+/// polygon of the mesh.
 ///
 /// Messages count vertices and faces from 0, as the rows of PolygonMesh, and give the position in metres:
 ///   head.obj:face 17: expected an area above 1e-13 m2, found 0 m2 (group skin, at (0.01, 0.02, 0.09) m)
@@ -13,14 +14,15 @@
 
 namespace risorius::geom {
 
-/// In the order in which they are made. Later checks need the first three to pass, so an error in one of those ends the checks.
+/// The checks, in the order in which they are made. Later checks need the first three to pass, so an error in one of these ends
+/// the checks.
 enum class MeshCheck {
     kEmpty,            ///< no vertices or no faces
     kNonFinite,        ///< a position that is not finite
     kIndexRange,       ///< a corner whose index is not that of a vertex
     kDegenerateFace,   ///< a face with a repeated vertex, or with almost no area
     kNonManifoldEdge,  ///< more than two faces at an edge
-    /// Neighbours that run along their common edge in the same direction: one is flipped.
+    /// Two neighbours that run along their common edge in the same direction, so one of them is flipped.
     kWinding,
     kInsideOut,         ///< the surface, or a closed piece of it, faces inwards
     kScale,             ///< not the size of a head
@@ -38,7 +40,7 @@ struct MeshCheckOptions {
     /// The factor with which the mesh was read, for advice in messages.
     double metres_per_unit = 1.0;
     double smallest_size_m = 0.12;  ///< lower limit of the longest side of the bounding box
-    double max_size_m = 1.0;        ///< upper limit of it: a head with shoulders
+    double max_size_m = 1.0;        ///< upper limit of the same side: a head with shoulders
     double smallest_face_area_m2 = 1e-13;
     double seam_tolerance_m = 1e-7;
     int findings_per_check = 5;  ///< further findings are counted only
@@ -72,11 +74,11 @@ struct MeshReport {
     Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< bounding box of the checked groups, m
 };
 
-/// All findings, errors included. Every place begins with `name`, usually the file.
+/// Makes the checks and returns all findings, errors included. MeshFinding::place begins with `name`, usually the file.
 MeshReport inspect_mesh(const PolygonMesh& mesh, const std::string& name,
                         const MeshCheckOptions& options = {});
 
-/// The same, but throws the first error as Error.
+/// Does the same, but throws the first finding of severity kError as Error.
 MeshReport check_mesh(const PolygonMesh& mesh, const std::string& name,
                       const MeshCheckOptions& options = {});
 

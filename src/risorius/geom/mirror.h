@@ -15,7 +15,7 @@ namespace risorius::geom {
 
 /// The mirror plane of a surface and the partner of each vertex.
 struct MirrorPairs {
-    /// V; mirror partner of each vertex; itself on the seam, -1 elsewhere.
+    /// V; the mirror partner of each vertex: the vertex itself on the seam, -1 for a vertex without partner.
     std::vector<int> partner;
     /// Unit normal of the mirror plane normal.p = offset. It points to the first half.
     Vec3 normal = Vec3::UnitX();
@@ -25,26 +25,27 @@ struct MirrorPairs {
     Vec3 reflect(const Vec3& direction) const {
         return direction - 2.0 * normal.dot(direction) * normal;
     }
-    /// 0 on the seam, 1 in the first half, -1 in the other half.
+    /// Returns the half of a vertex: 0 on the seam, 1 in the first half, -1 in the other half.
     int side(int v, const Points& points) const {
         if (partner[static_cast<std::size_t>(v)] == v) return 0;
         return points.row(v).dot(normal) > offset ? 1 : -1;
     }
 };
 
-/// Searches a mirror plane near the given one. The mirror image of a vertex may be at most `tolerance` times its shortest edge
-/// away from the partner. The result is not found() when any vertex has no partner or a triangle crosses the seam.
+/// Finds the mirror plane near the plane normal.p = offset. The mirror image of a vertex may be at most `tolerance` times its
+/// shortest edge away from the partner. The result is not found() when any vertex has no partner or a triangle crosses the seam.
 MirrorPairs find_mirror_pairs(const Triangles& triangles, const Points& points, Vec3 normal,
                               double offset, double tolerance = 0.25);
 
-/// The triangles in the first half.
+/// Returns the triangles in the first half.
 Triangles first_half(const Triangles& whole, const Points& points, const MirrorPairs& mirror);
-/// The triangles in the first half whose mirror image exists too.
+/// Returns the triangles in the first half whose mirror image is also a triangle of the surface.
 Triangles paired_half(const Triangles& whole, const Points& points, const MirrorPairs& mirror);
-/// The triangles of the half, followed by their mirror images.
+/// Returns the triangles of the half, followed by their mirror images.
 Triangles with_mirror_image(const Triangles& half, const MirrorPairs& mirror);
 
-/// Coarsens the first half, moving seam vertices only along the seam, and gives both halves the result.
+/// Coarsens the first half by decimate() and gives the other half the mirror image of the result. Vertices of the seam collapse
+/// only along the seam.
 Decimated decimate_mirrored(const Triangles& half, const Points& points,
                             const std::vector<double>& length, const MirrorPairs& mirror,
                             const DecimateOptions& options = {});

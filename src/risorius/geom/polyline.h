@@ -9,7 +9,8 @@
 
 namespace risorius::geom {
 
-/// The point of a polyline nearest to p: its segment, the position along the segment, and the distance.
+/// The point of a polyline nearest to a given point: its distance from that point, the index of its segment, and its position on
+/// the segment.
 struct PolylinePoint {
     double distance_m = 0;
     std::size_t piece = 0;
@@ -17,13 +18,13 @@ struct PolylinePoint {
 };
 PolylinePoint nearest_on_polyline(const Vec3& p, const std::vector<Vec3>& line);
 
-/// Distance of p to the polyline, m.
+/// Returns the distance of p from the polyline, m.
 double distance_to_polyline(const Vec3& p, const std::vector<Vec3>& line);
 
-/// Catmull-Rom curve through the points, sampled at most `spacing_m` apart; includes the end points.
+/// Returns points on the Catmull-Rom curve through the given points, at most `spacing_m` apart, both ends included.
 std::vector<Vec3> sample_curve(const std::vector<Vec3>& through, double spacing_m);
 
-/// Smooth step: 0 below a, 1 above b, C1 between.
+/// Returns a smooth step of x: 0 below a, 1 above b, and a cubic between them; its derivative is continuous.
 inline double smoothstep(double a, double b, double x) {
     const double t = x <= a ? 0.0 : x >= b ? 1.0 : (x - a) / (b - a);
     return t * t * (3.0 - 2.0 * t);

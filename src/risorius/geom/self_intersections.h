@@ -15,7 +15,7 @@
 
 namespace risorius::geom {
 
-/// Pairs of triangles, smaller index first, ascending.
+/// Returns the pairs of triangles that intersect, each with the smaller index first, in ascending order.
 std::vector<std::array<int, 2>> self_intersections(const Points& positions,
                                                    const Triangles& triangles);
 

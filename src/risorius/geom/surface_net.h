@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The zero surface of a field on a grid, as triangles. The method is naive surface nets (Gibson 1998): one vertex in each cell
-/// that the surface crosses, at the mean of the surface's crossings of the cell's edges.
+/// Makes triangles of the surface on which a field, sampled on a grid, is zero. The method is naive surface nets (Gibson 1998).
+/// Each cell of the grid that the surface crosses gets one vertex, at the mean of the points where the surface crosses the edges
+/// of the cell.
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@ namespace risorius::geom {
 /// Samples of a field, negative inside. The index of a sample is (k * size[1] + j) * size[0] + i.
 struct GridField {
     std::array<int, 3> size{0, 0, 0};  ///< samples along x, y, z
-    Vec3 origin = Vec3::Zero();        ///< of the first sample, m
+    Vec3 origin = Vec3::Zero();        ///< position of the first sample, m
     double step_m = 0;
     std::vector<float> values;
 
@@ -30,7 +31,8 @@ struct GridField {
                static_cast<std::size_t>(i);
     }
     Vec3 place(int i, int j, int k) const { return origin + step_m * Vec3(i, j, k); }
-    /// Interpolated between samples. Outside the grid it is the value at the border.
+    /// Returns the field at p, m, interpolated between samples. Outside the grid, it is the value at the nearest point of the
+    /// border.
     double at(const Vec3& p) const;
 };
 

@@ -19,22 +19,24 @@ struct SurfaceEdges {
     /// E + 1; the triangles at edge e are [triangle_begin[e], triangle_begin[e+1])
     std::vector<int> triangle_begin{0};
     std::vector<int> triangle;  ///< ascending at each edge
-    std::vector<int> side;      ///< which side of that triangle the edge is
+    /// For each entry of `triangle`, the side of that triangle that the edge is
+    std::vector<int> side;
 
     int count() const { return static_cast<int>(vertices.size()); }
     int triangle_count(int edge) const { return triangle_begin[edge + 1] - triangle_begin[edge]; }
 };
 SurfaceEdges surface_edges(const Triangles& triangles);
 
-/// F x 3: the triangle across side k; -1 at a boundary and where more than two triangles meet.
+/// Returns F x 3: column k is the triangle across side k; -1 at a boundary and where more than two triangles meet.
 Triangles triangle_neighbours(const SurfaceEdges& edges, int triangle_count);
 
-/// Closed chains of boundary edges, in the direction of their triangles (surface to the left). Each starts at its smallest
-/// vertex, and loops are sorted by that vertex. Where several boundaries touch in one vertex, the chain is cut there, so that
-/// no loop visits a vertex twice.
+/// Returns the boundary loops, closed chains of vertices on boundary edges. They run in the direction of their triangles, with
+/// the surface to the left. Each starts at its smallest vertex, and loops are sorted by that vertex. Where several boundaries
+/// touch in one vertex, the chain is cut there, so that no loop visits a vertex twice.
 std::vector<std::vector<int>> boundary_loops(const Triangles& triangles, const SurfaceEdges& edges);
 
-/// Pieces that are connected by shared vertices, numbered by their first triangle.
+/// The connected pieces of a surface, in the order of their first triangles. Triangles with a common vertex belong to the same
+/// piece.
 struct SurfacePieces {
     std::vector<int> of_triangle;     ///< F
     std::vector<int> of_vertex;       ///< V; -1 for a vertex that no triangle uses
@@ -44,24 +46,26 @@ struct SurfacePieces {
 };
 SurfacePieces surface_pieces(const Triangles& triangles, int vertex_count);
 
-/// Vertices one edge away, ascending, packed: the neighbours of v are [begin[v], begin[v + 1]).
+/// The neighbours of every vertex (those one edge away) in ascending order. Those of v are vertex[i] for i in [begin[v], begin[v
+/// + 1]).
 struct VertexNeighbours {
     std::vector<int> begin{0};
     std::vector<int> vertex;
 };
 VertexNeighbours vertex_neighbours(const SurfaceEdges& edges, int vertex_count);
 
-/// Two triangles with a common edge, for bending. (edge[0], edge[1], wing[0]) is wound like the surface; wing[1] is on the
-/// other side.
+/// Two triangles with a common edge, at which the surface bends. `edge`: the vertices of the edge. `wing`: the third vertex of
+/// each triangle. (edge[0], edge[1], wing[0]) is wound like the surface.
 struct Hinge {
     std::array<int, 2> edge;
     std::array<int, 2> wing;
     std::array<int, 2> triangle;
 };
-/// One hinge per edge with exactly two triangles of consistent winding, in edge order.
+/// Returns one hinge for each edge with exactly two triangles of consistent winding, in the order of the edges.
 std::vector<Hinge> surface_hinges(const Triangles& triangles, const SurfaceEdges& edges);
 
-/// Area-weighted unit normals, V x 3; zero for a vertex without area. Summed in the order of triangles.
+/// Returns unit normals, V x 3: the area-weighted mean of the normals of the triangles of a vertex; zero where they have no area.
+/// The sum is made in the order of the triangles.
 Points vertex_normals(const Points& positions, const Triangles& triangles);
 void vertex_normals(const Points& positions, const Triangles& triangles,
                     Points& normals);  ///< allocates nothing when `normals` has the right size

@@ -23,7 +23,7 @@ struct WeldOptions {
 
 /// The welded surface, and its relation to the mesh.
 struct WeldedSurface {
-    Points positions;     ///< W x 3, m; each is that of its first vertex
+    Points positions;     ///< W x 3, m; each is the position of first_vertex
     Triangles triangles;  ///< the given triangles in order, without those that became degenerate
     std::vector<int> welded_of_vertex;  ///< V; -1 for a vertex that no triangle uses
     std::vector<int> first_vertex;      ///< W, ascending; the lowest vertex joined into each
@@ -32,12 +32,13 @@ struct WeldedSurface {
     int joined_count() const;  ///< number of vertices that were replaced by another
 };
 
-/// A vertex is joined to the nearest earlier one within the tolerance, or to the one with the lowest index when several are
-/// equally near. So the result depends only on the order of vertices.
+/// Welds a mesh. Each vertex is joined to the nearest one of lower index within the tolerance; of several that are equally near,
+/// the one of lowest index is taken. So the result depends only on the positions and the order of the vertices.
 WeldedSurface weld(const Points& positions, const Triangles& triangles,
                    const WeldOptions& options = {});
 
-/// Copies values of welded vertices to the V vertices of the mesh. Rows of unused vertices are not changed.
+/// Copies the rows of `welded` (W x 3) to the corresponding vertices of the mesh in `out` (V x 3). Rows of vertices that no
+/// triangle uses are not changed.
 void spread(const WeldedSurface& surface, const Points& welded, Points& out);
 
 }  // namespace risorius::geom

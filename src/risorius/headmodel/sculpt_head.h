@@ -39,13 +39,13 @@ struct SculptReport {
 
 /// The identity that a command line asks for, checked: a named one, a file or a seed, and then the fields that are set.
 struct IdentityChoice {
-    std::string identity{};  ///< of models/identities, or a file; empty: the average adult
+    std::string identity{};  ///< a name of models/identities, or a file; empty: the average adult
     std::optional<unsigned> seed{};
     std::optional<double> sex{}, age{};
     std::vector<std::string> shape{};  ///< "lips=1.2"
     std::optional<std::string> skin{}, iris{}, hair{};
 };
-/// Throws Error that names the option.
+/// Returns the identity. Throws Error that names the option.
 headmodel::Identity chosen_identity(const IdentityChoice& choice);
 
 /// Throws Error when the identity is outside of the range of adults, or the folder holds other files; then nothing is written.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Compares the expressions of two heads. Each is driven by its own tables, and the displacements of landmarks are compared after
-/// scaling by the size of the head.
+/// Compares the expressions of two heads. Each head is driven by its own tables. The displacements of the landmarks are divided
+/// by the size of the head and then compared.
 ///
 ///   difference  sqrt(sum |u/s - u'/s'|^2 / sum |u'/s'|^2) over the landmarks of brows, eyes, nose and lips
 ///   u, u'       displacements on the two heads, m;  s, s'  size of the head over that of the atlas head

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Compares the expressions of a rig with measured ones: with the drives of the rig's tables, and after a bounded search of
-/// activations.
+/// Compares the expressions of a rig with measured ones. Each is simulated twice: with the drive of the rig's tables, and with
+/// the activations of a bounded search (fit_activations.h).
 #pragma once
 
 #include <array>
@@ -68,14 +68,14 @@ struct Evaluation {
     int nodes = 0;
 
     ScoreMeans means(const std::vector<std::string>& names, bool fitted) const;
-    /// The lists: all; the sixteen and the twenty-four if all of them are present; those on which the rig was calibrated; the
-    /// others.
+    /// The means of several lists: all expressions; the sixteen and the twenty-four ones, if all of them are present; those on
+    /// which the rig was calibrated; and the others.
     std::vector<ExpressionGroup> groups() const;
     bool is_calibrated_on(const std::string& expression) const;
     Json json() const;
 };
 
-/// The sixteen and the twenty-four expressions for which there are published and earlier results.
+/// The two lists of expressions, sixteen and twenty-four, for which there are published or earlier results.
 const std::vector<std::string>& sixteen_expressions();
 const std::vector<std::string>& twenty_four_expressions();
 

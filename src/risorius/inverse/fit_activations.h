@@ -6,8 +6,9 @@
 ///   minimise  1/2 |u(a) - g|_w^2 / |g|_w^2 + l1 sum |a_i| + l2/2 sum a_i^2 + keep/2 sum (a_i - near_i)^2,
 ///             0 <= a_i <= 1 (or the muscle's range)
 ///
-/// Solved by Gauss-Newton steps over equilibrium poses. Left and right have the same activation when the measured shape has both
-/// sides.
+/// a: the unknown activations, u(a): displacement of the face in equilibrium, g: the measured displacement, w: area of each
+/// vertex. The problem is solved by Gauss-Newton steps between equilibria. Left and right have the same activation when the
+/// measured shape has both sides.
 #pragma once
 
 #include <string>
@@ -29,7 +30,8 @@ struct ActivationFitOptions {
     double longest_step = 0.4;  ///< largest change of an unknown in the first round
     /// The search stops when a round reduces the objective by less than this fraction
     double min_gain = 1e-3;
-    double size = 0;            ///< replaces |g|_w^2, m^4; 0: |g|_w^2 is used
+    /// Value that replaces |g|_w^2 in the denominator, m^4; 0: |g|_w^2 is used
+    double size = 0;
     double keep = 0;            ///< weight of the distance from `near`: keep/2 sum (a_i - near_i)^2
     Eigen::VectorXd near = {};  ///< one value per unknown; needed when keep > 0
     /// Solver options for each trial pose
@@ -39,8 +41,10 @@ struct ActivationFitOptions {
 /// An unknown of the search: the columns or channels that it sets together, and its range.
 struct ActivationUnknown {
     std::string name;
-    std::vector<int> columns;                ///< columns of the excitation, or
-    std::vector<track::Kinematic> channels;  ///< kinematic channels
+    /// Columns of the excitation; empty for an unknown of channels
+    std::vector<int> columns;
+    /// Kinematic channels; empty for an unknown of muscles
+    std::vector<track::Kinematic> channels;
     double min = 0, max = 1;
     double scale = 1;  ///< value of the channel per unit of the unknown
 };
@@ -53,8 +57,8 @@ void set_value(const ActivationUnknown& unknown, double value, track::Drive& dri
 std::vector<ActivationUnknown> activation_unknowns(const rig::RigDescription& rig,
                                                    const track::Drive& begin, bool sided);
 
-/// Searches from `begin` and returns the best drive; `face` is left in equilibrium with it. `measured`: displacement, V x 3, m.
-/// `area`: weight of each vertex.
+/// Searches from the drive `begin` and returns the best drive. It leaves `face` in equilibrium under that drive. `measured`: g, V
+/// x 3, m. `area`: w, the weight of each vertex, m^2.
 track::Drive fit_activations(face::Face& face, const std::vector<ActivationUnknown>& unknowns,
                              const Points& measured, const Eigen::VectorXd& area,
                              const track::Drive& begin, const ActivationFitOptions& options = {});

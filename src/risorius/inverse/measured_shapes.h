@@ -29,7 +29,7 @@ struct MeasuredShape {
 /// Options of read_measured_shapes().
 struct MeasuredShapesOptions {
     std::vector<std::string> only = {};  ///< names; empty: all
-    /// Keep left and right shapes separate instead of adding them to one
+    /// True: left and right shapes stay separate and are not added to one
     bool separate_sides = false;
 };
 

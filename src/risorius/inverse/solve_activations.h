@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// `risorius solve`: finds the muscle activations that reproduce measured or sculpted shapes, or landmarks over time, and writes
-/// them as a script.
+/// The program `risorius solve`. It finds the muscle activations that reproduce measured or sculpted shapes, or landmarks over
+/// time, and writes them as a script.
 ///
 ///   minimise over a_t   sum_t ( 1/2 |u(a_t) - g_t|_w^2 / G + l1 |a_t|_1 + l2/2 |a_t|^2 ) + temporal/2 sum_t |a_t - a_t-1|^2
 ///
@@ -10,8 +10,8 @@
 ///   w     skin area of a vertex, and a fifth of its mean for vertices of other parts that the shapes move; 1 for landmarks
 ///   G     |g|_w^2; for a sequence its maximum over the frames
 ///
-/// Shapes are solved independently, each from rest. The frames of a sequence start from the previous frame. Afterwards they are
-/// solved once more, backwards in time, with terms to both neighbours.
+/// Shapes are solved independently, each from rest. A frame of a sequence starts from the solution of the frame before.
+/// Afterwards all frames are solved once more, backwards in time, with the temporal term for both neighbours.
 #pragma once
 
 #include <filesystem>
@@ -46,7 +46,7 @@ struct SolvedDrive {
     std::string name;
     double time_s = 0;  ///< time of a frame
     track::Drive drive;
-    double rms_m = 0, max_m = 0;  ///< of u - g over the vertices or landmarks with weight
+    double rms_m = 0, max_m = 0;  ///< error |u - g| over the vertices or landmarks with weight
     double given_rms_m = 0;       ///< RMS of g
     double highest = 0;           ///< largest activation of a muscle
 };

@@ -55,7 +55,7 @@ struct MorphAnimation {
 struct MorphModel {
     std::string name;
     Points vertices;  ///< V x 3, m, head frame
-    /// V; the vertex at the same position with which this one shares its normal; empty: itself.
+    /// V; for each vertex, the vertex at the same position with which it shares its normal; empty: no vertices share normals.
     std::vector<int> stands_for;
     std::vector<MorphPart> parts;
     std::vector<MorphTarget> targets;
@@ -66,7 +66,7 @@ struct MorphModel {
     bool whole_numbers = true;
 };
 
-/// The bytes of the file. They depend only on the model.
+/// Returns the bytes of the file. They depend only on the model.
 std::string glb_bytes(const MorphModel& model);
 
 /// Reads a file that glb_bytes() wrote: vertices, targets, extras and animations, but of the parts only the triangles. Throws

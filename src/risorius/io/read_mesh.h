@@ -23,8 +23,8 @@
 
 namespace risorius::io {
 
-/// Positions are multiplied by `metres_per_unit`, for example 0.01 for a head in centimetres. FBX and COLLADA state their unit
-/// themselves and need 1, unless they state it wrongly.
+/// Reads a mesh. Positions are multiplied by `metres_per_unit`, for example 0.01 for a head in centimetres. FBX and COLLADA state
+/// their unit themselves and need 1, unless they state it wrongly.
 struct MeshReadOptions {
     double metres_per_unit = 1.0;
 };

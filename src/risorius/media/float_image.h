@@ -16,9 +16,9 @@ struct FloatImage {
     std::vector<float> samples;  ///< height x width x channels, rows from the top
 };
 
-/// Written under a temporary name and then renamed. Throws RunError on failure.
+/// Writes a picture under a temporary name and then renames the file. Throws RunError on failure.
 void write_exr(const FloatImage& image, const std::filesystem::path& file);
-/// Reads only files of these two kinds. Throws Error for others.
+/// Reads a picture with one channel Y, or with R, G and B. Throws Error for other files.
 FloatImage read_exr(const std::filesystem::path& file);
 
 }  // namespace risorius::media

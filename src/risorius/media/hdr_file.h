@@ -16,7 +16,7 @@ struct HdrPicture {
     std::vector<float> rgb;  ///< 3 per pixel, rows from the top, linear
 };
 
-/// Throws Error unless the file is an .hdr with RGBE pixels in rows from the top left that is complete to its last row.
+/// Reads a file. Throws Error unless it is an .hdr with RGBE pixels, in rows from the top left, and complete to its last row.
 HdrPicture read_hdr(const std::filesystem::path& file);
 
 }  // namespace risorius::media

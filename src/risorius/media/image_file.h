@@ -12,16 +12,17 @@
 
 namespace risorius::media {
 
-/// Written under a temporary name and then renamed. Alpha is kept when any pixel is not opaque. Throws RunError on failure.
+/// Writes a picture under a temporary name and then renames the file. Alpha is kept when any pixel is not opaque. Throws RunError
+/// on failure.
 void write_png(const Image& image, const std::filesystem::path& file);
-/// 16 bits per channel: the picture's 16-bit pixels, or its 8-bit pixels expanded to 16 bits.
+/// Does the same with 16 bits per channel: the picture's 16-bit pixels, or its 8-bit pixels expanded to 16 bits.
 void write_png16(const Image& image, const std::filesystem::path& file);
 /// Writes numbers instead of colours: one channel, 8 or 16 bits, rows from the top.
 void write_grey_png(int width_px, int height_px, int bits,
                     const std::vector<std::uint16_t>& samples, const std::filesystem::path& file);
-/// True when any pixel is not opaque.
+/// Returns whether any pixel is not opaque.
 bool has_transparency(const Image& image);
-/// Throws Error when the file is missing, incomplete, or not a PNG file with 8 bits per channel.
+/// Reads a picture. Throws Error when the file is missing, incomplete, or not a PNG file with 8 bits per channel.
 Image read_png(const std::filesystem::path& file);
 
 /// Writes ASCII text for captions. Its baseline begins at x, y, and capitals are `height_px` high.

@@ -38,10 +38,10 @@ class LuminanceMeter {
     std::vector<Block> blocks_;
 };
 
-/// Mean of Y where the mask is not 0; NaN when it is 0 everywhere.
+/// Returns the mean of Y where the mask is not 0; NaN when it is 0 everywhere.
 double mean_luminance(const Image& image, const std::vector<std::uint16_t>& mask);
 
-/// Y of an sRGB pixel.
+/// Returns Y of an sRGB pixel.
 double relative_luminance(const std::uint8_t* rgb);
 
 }  // namespace risorius::media

@@ -12,9 +12,9 @@
 
 namespace risorius::media {
 
-/// Throws Error that names the file when it is missing or not a picture.
+/// Reads a picture. Throws Error that names the file when it is missing or not a picture.
 Image read_picture(const std::filesystem::path& file);
-/// The same for the bytes of a file, which messages call `name`.
+/// Does the same with the bytes of a file, which messages call `name`.
 Image read_picture(const std::vector<std::uint8_t>& bytes, const std::string& name);
 
 }  // namespace risorius::media

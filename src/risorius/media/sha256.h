@@ -23,7 +23,7 @@ class Sha256 {
     std::unique_ptr<Impl> impl_;
 };
 
-/// The checksum of a file. Throws Error when it cannot be read.
+/// Returns the checksum of a file. Throws Error when it cannot be read.
 std::string sha256_of_file(const std::filesystem::path& file);
 
 }  // namespace risorius::media

@@ -17,19 +17,19 @@ namespace risorius::media {
 
 /// Corners of the picture.
 enum class Corner { kUpperLeft, kUpperRight, kLowerLeft, kLowerRight };
-/// "upper_left", "upper_right", "lower_left", "lower_right".
+/// The names of the corners: "upper_left", "upper_right", "lower_left", "lower_right".
 const std::vector<std::string>& corner_names();
 /// Throws Error at `place` for an unknown name.
 Corner corner_named(const std::string& name, const std::string& place);
 
 inline constexpr int kCounterCells = 24;
 
-/// A white or black square with this side, clipped to the picture.
+/// Draws a white or black square with the given side, px, clipped to the picture.
 void draw_photodiode(Corner corner, int side_px, bool lit, Image& image);
 
 /// Draws the counter. `cell_px`: side of a cell.
 void draw_frame_counter(Corner corner, int cell_px, int frame, Image& image);
-/// The number in the picture; empty when there is none or its parity is wrong.
+/// Reads the number from a picture; nothing when there is no counter or its parity is wrong.
 std::optional<int> read_frame_counter(Corner corner, int cell_px, const Image& image);
 
 }  // namespace risorius::media

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Changes luminance and contrast of pictures, and measures many pictures as one.
+/// Changes luminance and contrast of pictures, and measures the luminance of many pictures together.
 ///
 ///   Y    relative luminance, see luminance.h
 ///
@@ -50,7 +50,7 @@ struct LuminanceSums {
     double sd() const;
 };
 
-/// The tone that gives pictures with these sums the given mean and standard deviation, except for clipping.
+/// Returns the tone that gives pictures with these sums the given mean and standard deviation of Y, except for clipping.
 Tone tone_between(const LuminanceSums& from, double mean, double sd);
 
 }  // namespace risorius::media

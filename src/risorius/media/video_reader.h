@@ -24,10 +24,12 @@ class VideoReader {
     int height_px() const;
     double fps() const;
 
-    /// Time at which a frame is shown, s, as stored; Matroska's are rounded to a millisecond. `frame` is in [0, frames()).
+    /// Returns the time, s, at which a frame is shown, as it is stored; Matroska rounds it to a millisecond. `frame` is in [0,
+    /// frames()).
     double time_s(int frame) const;
 
-    /// The pixels of a frame. YUV is converted with the matrix and range that the file names. Ascending order is fastest.
+    /// Returns the pixels of a frame. YUV is converted with the matrix and range that the file names. Reading frames in ascending
+    /// order is fastest.
     Image frame(int frame);
 
   private:

@@ -39,9 +39,9 @@ struct VideoOptions {
     bool lossless = false;
     std::optional<int> bits = {};  ///< of PNG frames, 8 or 16
     bool alpha = false;            ///< frames may be transparent even if the first one is not
-    /// Cut, or extended with silence, to the length of the video.
+    /// The sound of the video. It is cut, or extended with silence, to the length of the video.
     std::shared_ptr<const Sound> sound = {};
-    /// From the first frame to the first sample, at the sound's own rate.
+    /// Number of samples from the first frame to the first sample, at the sound's own rate.
     std::int64_t sound_offset_samples = 0;
 };
 

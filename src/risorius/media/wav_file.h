@@ -9,8 +9,8 @@
 
 namespace risorius::media {
 
-/// Uses the sound's own rate, channels and bits. Integers are clipped at full scale. Written under a temporary name and then
-/// renamed. Throws RunError on failure.
+/// Writes a file with the sound's own rate, channels and bits. Integers are clipped at full scale. The file is written under a
+/// temporary name and then renamed. Throws RunError on failure.
 void write_wav(const Sound& sound, const std::filesystem::path& file);
 
 }  // namespace risorius::media

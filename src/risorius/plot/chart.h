@@ -15,10 +15,10 @@ enum class Mark { kLine, kDashed, kPoints, kLinePoints };
 
 /// One curve. x and y have the same length.
 struct Series {
-    std::string label;  ///< in the key; empty: not shown there
+    std::string label;  ///< name in the key of the chart; empty: the series is not in the key
     std::vector<double> x = {}, y = {};
     Mark mark = Mark::kLine;
-    /// Index in the palette; -1: the next one; series of equal colour belong together.
+    /// Index of the colour in the palette; -1: the next colour. Series of equal colour belong together.
     int colour = -1;
 };
 
@@ -37,7 +37,7 @@ struct Axis {
 
 /// The whole chart.
 struct Chart {
-    std::string name;        ///< of its files; letters, digits, "_" and "-"
+    std::string name;        ///< name of its files: letters, digits, "_" and "-"
     std::string title = {};  ///< one line above the chart
     Axis x = {}, y = {};
     std::vector<Series> series = {};

@@ -15,11 +15,11 @@ namespace risorius::render {
 struct TextStyle {
     double height_px = 12;  ///< height of a capital letter
     double ink = 0.08;      ///< grey, sRGB: 0 black, 1 white
-    /// Opacity of an outline in the opposite tone, which makes text readable on any background
+    /// Opacity 0..1 of an outline in the opposite tone, which makes the text readable on any background
     double rim = 0;
 };
 
-/// Width of a text in heights of a capital letter.
+/// Returns the width of a text as a multiple of TextStyle::height_px, the height of a capital letter.
 double text_width(std::string_view text);
 
 /// Draws the text. `at`: left end of the baseline, px from the upper left corner of the image. Text outside the image is cut off.

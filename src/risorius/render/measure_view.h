@@ -16,7 +16,8 @@ struct ColouredSurface {
     Points positions;  ///< V x 3, m
     Triangles triangles;
     std::vector<Vec3> colours;  ///< V, sRGB 0..1
-    /// 0..1. Below 1 only front faces are drawn, blended over what is behind them, and marks and lines shine through.
+    /// 0..1. Below 1, only the front sides of triangles are drawn. They are blended over what is behind them, and marks and lines
+    /// shine through.
     double opacity = 1;
 };
 
@@ -37,10 +38,12 @@ struct MarkedLine {
 
 struct MeasureViewOptions {
     int width_px = 600, height_px = 800;
-    double azimuth_deg = 0;  ///< from straight ahead of the face towards its left
+    /// Azimuth of the camera: 0 is in front of the face, positive on its left
+    double azimuth_deg = 0;
     Vec3 centre = Vec3::Zero();
-    double height_m = 0.3;        ///< height of the visible area
-    double marks_above_m = 4e-3;  ///< marks and lines up to this far behind a surface still show
+    double height_m = 0.3;  ///< height of the visible area
+    /// Marks and lines show if they lie at most this far behind a surface
+    double marks_above_m = 4e-3;
     Vec3 background{1, 1, 1};
 };
 
@@ -48,8 +51,8 @@ struct MeasureViewOptions {
 Image draw_measured(const std::vector<ColouredSurface>& surfaces, const std::vector<Mark>& marks,
                     const std::vector<MarkedLine>& lines, const MeasureViewOptions& options);
 
-/// Colour map from dark blue over green to yellow for 0..1, with evenly growing lightness; values outside are clamped. Samples of
-/// viridis of matplotlib (S. van der Walt, N. Smith 2015, CC0).
+/// Colour map for 0..1, from dark blue over green to yellow, with evenly growing lightness. Returns sRGB 0..1. Values outside the
+/// range are clamped. The colours are samples of the map viridis of matplotlib (S. van der Walt, N. Smith 2015, CC0).
 Vec3 scale_colour(double fraction);
 
 }  // namespace risorius::render

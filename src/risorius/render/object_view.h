@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Draws deformed objects off-screen like figures in papers: a transparent shaded surface, its grid as wires that grow paler with
-/// distance, and fixed nodes as balls. The background is white, z is up, and a three-quarter view in mild perspective frames
-/// every vertex.
+/// Draws deformed objects off-screen like figures in papers. An object is a transparent shaded surface, its grid is drawn as
+/// wires that grow paler with distance, and its fixed nodes are drawn as balls. The background is white and z is up. The camera
+/// looks from diagonally above in mild perspective, and the picture contains every vertex.
 ///
 /// Several objects stand in a row in the given order, at the same scale and height, so that they can be compared.
 /// Deterministic: the same objects and options give the same bytes, for any number of threads.
@@ -33,12 +33,12 @@ struct ObjectViewOptions {
     int width_px = 1200;
     int height_px = 900;
     double azimuth_deg = -58;   ///< azimuth of the camera about z: 0 looks from +x, -90 from -y
-    double elevation_deg = 18;  ///< of the camera above the horizontal, -90..90
-    int supersampling = 3;      ///< samples per pixel side, 1..4
+    double elevation_deg = 18;  ///< elevation of the camera above the horizontal, -90..90
+    int supersampling = 3;      ///< samples along each side of a pixel, 1..4
     int threads = 0;            ///< as in ViewOptions
 };
 
-/// Draws one picture of the objects.
+/// Draws the picture of a list of objects.
 class ObjectView {
   public:
     /// Throws Error for an empty list, vertex indices out of range, positions that are not finite and options out of range, and

@@ -30,7 +30,7 @@ enum class Show {
     kSkin,     ///< the face
     kMuscles,  ///< muscles coloured by activation under translucent skin, with a scale
     kSkull,    ///< skull, mandible and teeth under glassy skin
-    // The skin with additions of the caller: values of a pose, or lines and marks over the picture.
+    // The following ones show the skin and what the caller adds: Pose::values, or lines and marks over the picture (overlays.h).
     kWire,       ///< the mesh's edges
     kStrain,     ///< principal strain of the skin
     kError,      ///< distance of the skin from the skin of another run
@@ -61,12 +61,13 @@ struct ViewOptions {
     Background background{};
     LightOptions light{};
     Lens lens{};
-    /// Samples per pixel side, 1..4. All are shaded, so the cost grows with the square.
+    /// Samples along each side of a pixel, 1..4. All samples are shaded, so the cost grows with the square of this number.
     int supersampling = 2;
-    /// Fast skin: lit at its vertices, without pores and wrinkles finer than the mesh
+    /// True: skin that is drawn fast, because it is lit at its vertices only, without pores and without wrinkles finer than the
+    /// mesh
     bool draft = false;
-    /// Worker threads of llvmpipe; 0: draw on the calling thread. The driver reads it once, so the first view of a process decides
-    /// for all. Pictures do not depend on it.
+    /// Number of worker threads of llvmpipe, the OpenGL driver on the CPU; 0: it draws on the calling thread. The driver reads
+    /// the number once, so the first view of a process decides for all. Pictures do not depend on it.
     int threads = 0;
     bool operator==(const ViewOptions&) const = default;
 };
@@ -85,28 +86,30 @@ class OffscreenView {
     OffscreenView(const OffscreenView&) = delete;
     OffscreenView& operator=(const OffscreenView&) = delete;
 
-    /// Draws a pose; pose.positions must have as many rows as scene.rest. One thread at a time may call it, and it may be any
-    /// thread.
+    /// Draws a pose; pose.positions must have as many rows as scene.rest. Any thread may call it, but only one at a time.
     Image draw(const Pose& pose);
-    /// Mean of several moments in linear light: motion blur of a shutter that is open for all of them.
+    /// Draws several poses and returns their mean in linear light: the motion blur of a shutter that is open during all of them.
     Image draw(const std::vector<Pose>& poses);
 
-    /// The colours of the skin without light on the texture coordinates of its surfaces, as a square picture in sRGB. Lashes and
-    /// brows are strands and are not included. The wall of the mouth is included where its texture coordinates do not overlap the
-    /// skin. `scene`: the scene of this view. Throws Error for a skin without texture coordinates.
+    /// Draws the colours of the skin, without light, on the texture coordinates of its surfaces. Returns a square picture in
+    /// sRGB. Lashes and brows are hair strands and are not included. The wall of the mouth is included where its texture
+    /// coordinates do not overlap those of the skin. `scene`: the scene of this view. `side_px`: width and height of the picture.
+    /// Throws Error for a skin without texture coordinates.
     Image skin_texture(const Scene& scene, int side_px) const;
-    /// The same for kEye, kTeeth, kGums or kTongue. An iris is drawn as seen from straight ahead; teeth are warmer at the neck
-    /// and grey at the edge. `crown_height`: per vertex of the scene, from 0 at the neck of its tooth to 1 at the edge; may be
-    /// empty.
+    /// Does the same for the material kEye, kTeeth, kGums or kTongue. An iris is drawn as seen from straight ahead. Teeth have a
+    /// warmer colour at the neck and are grey at the cutting edge. `crown_height`: one number per vertex of the scene, from 0 at
+    /// the neck of its tooth to 1 at the cutting edge; it may be empty.
     Image part_texture(const Scene& scene, Material part, int side_px,
                        const std::vector<double>& crown_height = {}) const;
 
-    /// CPU time of the process for reading back the last picture, s: from the end of drawing until it was in memory.
+    /// Returns the CPU time in seconds that the process spent on reading back the last picture: from the end of the drawing until
+    /// the picture was in memory.
     double read_back_s() const;
 
-    /// Pixel position (x right, y down, from the top left corner) of a world point.
+    /// Returns the position of a world point in the picture, px: x to the right and y down from the top left corner.
     Vec2 project(const Vec3& world) const;
-    /// The matrix of the camera in the convention of OpenGL: in the picture x (right) and y (up) are in [-w, w].
+    /// Returns the matrix of the camera in the convention of OpenGL. A point is inside the picture where its clip coordinates x
+    /// (to the right) and y (up) are within [-w, w].
     Eigen::Matrix4d clip_from_world() const;
 
   private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Lines and marks over a finished picture, hidden behind the head where they lie behind it.
+/// Draws lines and marks over a finished picture. Their parts that lie behind the head are hidden.
 #pragma once
 
 #include <array>
@@ -12,7 +12,8 @@
 
 namespace risorius::render {
 
-/// Draws the edges of a mesh as thin lines, which are paler where they are dense.
+/// Draws the edges of a mesh as thin lines, which are paler where they are dense. `edges`: pairs of vertices. `seen`: the pose of
+/// the picture, rasterized by `passes`.
 void draw_wire(const std::vector<std::array<int, 2>>& edges, const SurfacePasses& passes,
                const SeenSurface& seen, Image& image);
 
@@ -22,7 +23,7 @@ struct NamedPoint {
     Vec3 at;  ///< world, m
 };
 
-/// Draws dots, with their names when the picture is large enough to read them.
+/// Draws the points as dots. Their names are added when the picture is large enough to read them.
 void draw_landmarks(const std::vector<NamedPoint>& points, const SurfacePasses& passes,
                     const SeenSurface& seen, Image& image);
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
 /// Description of what is drawn: surfaces, each of one material, over one shared vertex array, and what the materials need to
-/// know about the head. Everything in a Scene is constant; a Pose holds what changes in every frame.
+/// know about the head. Everything in a Scene is constant; a Pose holds what changes from frame to frame.
+///
+/// A fold, in the names of this folder, is a wrinkle of the skin that is finer than the mesh. The shaders draw it from a phase
+/// (where it lies) and a depth (how far the skin is pushed in).
 ///
 /// Head frame, m: origin between the tragia, x to the subject's left, y up, z forward.
 #pragma once
@@ -102,7 +105,7 @@ struct Scene {
     std::map<std::string, Vec3> landmarks;  ///< rest, m; ids of rigs/standard/landmarks.json
     std::array<Eye, 2> eyes;                ///< left, right
     Appearance appearance;
-    /// V x 3, or no rows for skin without wrinkles: phases of up to three sets of wrinkles per vertex
+    /// V x 3, or no rows for skin without wrinkles. Column k: phase of the k-th of up to three sets of wrinkles
     Points fold_phase;
     Muscles muscles;  ///< empty unless they are shown
     Bones bones;      ///< empty unless they are shown
@@ -125,7 +128,8 @@ struct Pose {
     /// Rotation from the rest pose of the eye to the world
     std::array<Mat3, 2> eye_rotation{Mat3::Identity(), Mat3::Identity()};
     double jaw_open = 0.0;  ///< 0..1; gives the gap of the lips on a head without lip landmarks
-    Points fold_depth;      ///< V x 3, m, depth of the wrinkles along fold_phase; no rows: none
+    /// V x 3, m, depth of the three sets of wrinkles of Scene::fold_phase; no rows: no wrinkles
+    Points fold_depth;
     /// M x 3, m; this and activations are read only when muscles are shown
     Points muscle_positions;
     std::vector<double> activations;   ///< per muscle of the scene, 0..1

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Ground truth per pixel from the mesh instead of the picture: the part of the head, depth, normal, and motion to another pose.
-/// Rasterized in software without OpenGL.
+/// Ground truth per pixel: the part of the head, the depth, the normal, and the motion to another pose. They are computed from
+/// the mesh, not from the picture, by a rasterizer in software without OpenGL.
 ///
 /// There is one sample at the centre of each pixel and no averaging: a pixel belongs to one part. Cornea and lashes count as
 /// transparent. The bytes are the same on every machine and for any number of threads.
@@ -18,7 +18,7 @@
 
 namespace risorius::render {
 
-/// The value of a pixel in a picture of parts. Left and right are the subject's.
+/// The part of the head that a pixel shows. Left and right are those of the subject.
 enum class Part : std::uint8_t {
     kBackground,
     kSkin,
@@ -43,10 +43,12 @@ const std::vector<std::string>& part_names();
 
 /// A rasterized pose: per pixel, rows from the top, the nearest triangle and the point on it.
 struct SeenSurface {
-    Points positions;                  ///< V x 3, m, world
-    std::vector<int> triangle;         ///< -1: background
-    std::vector<float> second, third;  ///< barycentric weights of its second and third corner
-    /// Depth in clip space, from -1 near to 1 far; 2 for the background
+    Points positions;           ///< V x 3, m, world
+    std::vector<int> triangle;  ///< -1: background
+    /// Barycentric weights of the second and third corner of the triangle
+    std::vector<float> second, third;
+    /// Depth in clip space after division by w; it grows with distance, in spite of its name: -1 nearest, 1 farthest, 2 for the
+    /// background
     std::vector<float> nearness;
 };
 
@@ -59,21 +61,24 @@ class SurfacePasses {
     SurfacePasses(const Scene& scene, const Eigen::Matrix4d& clip_from_world, int width_px,
                   int height_px);
 
-    /// Rasterizes a pose.
+    /// Rasterizes a pose. `positions`: V x 3, m, world.
     SeenSurface look(const Points& positions) const;
 
     std::vector<std::uint16_t> parts(const SeenSurface& seen) const;  ///< values of Part
-    /// Distance from the camera along its axis, m (from the near plane for an orthographic camera); infinite for the background.
+    /// Returns the distance from the camera along its axis, m, one per pixel. An orthographic camera measures it from the near
+    /// plane. The background is infinitely far away.
     std::vector<float> depth(const SeenSurface& seen) const;
-    /// x, y, z per pixel: unit smooth normal in the world; 0 for the background.
+    /// Returns x, y, z per pixel: the smooth normal of the surface, a unit vector in world axes; 0 for the background.
     std::vector<float> normals(const SeenSurface& seen) const;
-    /// Three values per pixel: motion to the other pose in px to the right and px down, and 1 where the same point is visible
-    /// there too, 0 where it is hidden or outside the picture. The background does not move.
+    /// Returns three values per pixel of `from`: the motion of its point to the pose `to` in px to the right and px down, and 1
+    /// where the point is also visible in `to`, or 0 where it is hidden or outside the picture. The background does not move.
     std::vector<float> flow(const SeenSurface& from, const SeenSurface& to) const;
 
-    /// Position in the picture: px to the right, px down, and depth in clip space.
+    /// Returns the position of a world point in the picture: px to the right and px down from the top left corner, and depth in
+    /// clip space.
     Vec3 in_picture(const Vec3& world) const;
-    /// Whether no surface is nearer than a position of in_picture() by more than `above_m`; false outside the picture.
+    /// Returns whether a point is visible: no surface in `seen` is nearer to the camera than the point by more than `above_m`.
+    /// `place`: its position from in_picture(). Returns false for a point outside the picture.
     bool is_seen(const SeenSurface& seen, const Vec3& place, double above_m) const;
 
     int width_px() const { return width_; }

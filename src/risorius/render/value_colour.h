@@ -10,8 +10,8 @@
 
 namespace risorius::render {
 
-/// The colour in linear light with sRGB primaries, 0..1. Values outside the range are clamped. The range is signed when `from` <
-/// 0 < `to`.
+/// Returns the colour of a value in linear light with sRGB primaries, 0..1. Values outside [from, to] are clamped. The map for
+/// signed quantities is used when `from` < 0 < `to`.
 Vec3 value_colour(double value, double from, double to);
 
 /// The colour of a missing value, linear light.

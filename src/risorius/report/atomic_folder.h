@@ -21,7 +21,7 @@ class AtomicFolder {
     AtomicFolder(const AtomicFolder&) = delete;
     AtomicFolder& operator=(const AtomicFolder&) = delete;
 
-    /// Where to write before commit().
+    /// Returns the folder to write to before commit().
     const std::filesystem::path& partial() const { return partial_; }
 
     /// Throws RunError when the folder cannot be renamed; then the earlier folder stays.
@@ -33,7 +33,7 @@ class AtomicFolder {
     bool committed_ = false;
 };
 
-/// The key of results.json that lists all files of the folder, including itself.
+/// The key of results.json whose value lists all files of the folder, results.json included.
 inline constexpr const char* kFilesKey = "files";
 
 }  // namespace risorius::report

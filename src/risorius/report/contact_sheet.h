@@ -30,7 +30,7 @@ struct ContactSheet {
 /// Draws the sheet.
 Image draw_contact_sheet(const ContactSheet& sheet);
 
-/// A smaller copy of a picture: each pixel is the mean of the area that it covers.
+/// Returns a smaller copy of a picture. Each of its pixels is the mean of the area that it covers.
 Image shrunk(const Image& image, int width_px, int height_px);
 
 }  // namespace risorius::report

@@ -26,7 +26,7 @@ class HtmlWriter {
     HtmlWriter& element(const std::string& tag, const std::string& text,
                         const Attributes& attributes = {});
 
-    /// Everything that was written. All elements must be closed.
+    /// Returns everything that was written. All elements must be closed.
     const std::string& html() const;
 
   private:
@@ -36,7 +36,7 @@ class HtmlWriter {
     std::vector<std::string> open_;
 };
 
-/// A complete document.
+/// Returns a complete HTML document.
 std::string html_page(const std::string& title, const HtmlWriter& body);
 
 }  // namespace risorius::report

@@ -10,8 +10,8 @@
 
 namespace risorius::report {
 
-/// Headings of level 1 become level `first_heading` (1..6), and deeper ones follow. Links to files become plain text, because the
-/// files are not next to the page.
+/// Converts a text. Headings of level 1 get the level `first_heading` (1..6), and lower ones are shifted likewise. Links to files
+/// become plain text, because the files are not next to the page.
 void write_markdown(HtmlWriter& html, const std::string& markdown, int first_heading);
 
 }  // namespace risorius::report

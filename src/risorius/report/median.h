@@ -8,7 +8,7 @@
 
 namespace risorius::report {
 
-/// The median; 0 when there are no values.
+/// Returns the median; 0 when there are no values.
 inline double median(std::vector<double> values) {
     if (values.empty()) return 0;
     std::sort(values.begin(), values.end());

@@ -10,15 +10,15 @@
 
 namespace risorius::report {
 
-/// The path of a file next to `out`: "hello.mp4" -> "hello.mp4.json", "frames/" -> "frames.json".
+/// Returns the path of a file next to `out`: "hello.mp4.json" for "hello.mp4", "frames.json" for "frames/".
 std::filesystem::path output_path(const std::filesystem::path& out, const char* ending);
 
 /// Throws Error when `file` exists and is not JSON of one of these formats, because it would be overwritten.
 void check_overwritten(const std::filesystem::path& file,
                        const std::vector<std::string_view>& formats, const std::string& expected);
 
-/// These throw Error when a record or a table would overwrite a file that was not written by an earlier run, such as a script of
-/// that name.
+/// These two functions throw Error when a record or a table would overwrite a file that no earlier run has written, such as a
+/// script of that name.
 void check_record(const std::filesystem::path& record);
 void check_table(const std::filesystem::path& table);
 

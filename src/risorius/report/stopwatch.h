@@ -19,7 +19,7 @@ class Stopwatch {
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// CPU time of this thread, or of all threads of this process.
+/// Measures the CPU time of this thread, or of all threads of this process.
 template <clockid_t kClock>
 class ClockStopwatch {
   public:

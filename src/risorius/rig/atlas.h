@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The standard anatomy that every rig starts from, in the frame and size of one average adult head: 109 landmarks, thickness of
-/// soft tissue, stiffness of attachments, and the muscles of expression as bands between landmarks.
+/// The standard anatomy that every rig starts from, in the frame and size of one average adult head: 109 landmarks, the thickness
+/// of soft tissue, the stiffness of its attachments to bone, and the muscles of expression as bands between landmarks.
 ///
 /// Frame: origin midway between the tragia, x to the subject's left, y up, z forward, Frankfurt horizontal. m, N, Pa/m.
 /// Sources: see the files rigs/standard/*.json.
@@ -36,8 +36,10 @@ struct ThicknessSample {
 /// A sample of the stiffness with which tissue is attached to bone, at a landmark.
 struct AttachmentSample {
     std::string landmark;
-    double normal_pa_per_m;      ///< resistance to being lifted off the bone, per area
-    double tangential_pa_per_m;  ///< resistance to sliding, per area
+    /// Stiffness against being lifted off the bone: pressure per displacement
+    double normal_pa_per_m;
+    /// Stiffness against sliding along the bone: shear stress per displacement
+    double tangential_pa_per_m;
 };
 
 /// The body that the end of a muscle band moves with.
@@ -47,15 +49,18 @@ enum class Body { kSkull, kMandible, kSoft, kNeck };
 struct BandPoint {
     std::string landmark;
     Vec3 offset;  ///< m, at atlas size
-    /// Depth below the skin over tissue thickness: 0 skin, 1 bone. Negative: the point lies on the mucosa and is used as given.
+    /// Depth below the skin as a fraction of the tissue thickness: 0 skin, 1 bone. Negative: the point lies on the mucosa, and
+    /// its position is used as given.
     double depth = 0.5;
 };
 
-/// A sheet of parallel fibres along a path on the left side. A band that names landmarks of the right side crosses the midline.
+/// A muscle band: a sheet of parallel fibres along a path on the left side. A band that also names landmarks of the right side
+/// crosses the midline.
 struct MuscleBand {
     std::string muscle;
     double width_m;
-    double force_n;  ///< isometric force of this side; the bands of a muscle share it
+    /// Maximum isometric force of the muscle on this side; all bands of the muscle together have it
+    double force_n;
     /// Calibration factor of the force: with it, activation 1 shortens the band to `shortens_to`
     double strength = 1.0;
     /// Mean fibre length over rest length when only this muscle is active, with activation 1
@@ -84,9 +89,10 @@ std::vector<ThicknessSample> read_thickness(JsonCursor json);
 std::vector<AttachmentSample> read_attachments(JsonCursor json);
 std::vector<MuscleBand> read_muscle_bands(JsonCursor json);
 
-/// "ch_l" -> "ch_r" and back. The id of a landmark of the midline is returned unchanged.
+/// Returns the id of the landmark on the other side: "ch_r" for "ch_l" and the other way round. The id of a landmark of the
+/// midline is returned unchanged.
 std::string mirrored_landmark(const std::string& id);
-/// The band mirrored to the right side.
+/// Returns the band mirrored to the right side.
 MuscleBand mirrored(const MuscleBand& band);
 
 }  // namespace risorius::rig

@@ -19,7 +19,7 @@ inline constexpr const char* kCalibrationFile = "calibration.json";
 /// names, or the path of such a file, may be given instead.
 std::vector<std::string> read_calibration(const JsonCursor& json);
 
-/// The names that a rig file gives; empty if it gives none. Throws Error.
+/// Returns the names that a rig file gives; empty if it gives none. Throws Error when the file cannot be read.
 std::vector<std::string> calibrated_on(const std::filesystem::path& rig_file);
 
 }  // namespace risorius::rig

@@ -4,7 +4,8 @@
 /// behind the cut.
 ///
 /// The cut follows the deepest line between the lips from corner to corner and splits triangles where necessary. The vertices of
-/// the mesh keep their numbers, and their positions except for spikes into the mouth. New vertices are appended.
+/// the mesh keep their indices. They also keep their positions, except those in spikes into the mouth (scan_spikes.h). New
+/// vertices are appended.
 #pragma once
 
 #include <vector>
@@ -14,7 +15,7 @@
 
 namespace risorius::rig {
 
-/// Whether the skin continues from the upper to the lower lip without a gap.
+/// Returns whether the skin continues from the upper to the lower lip without a gap.
 bool lips_are_closed(const Head& head);
 
 /// The result of the cut.
@@ -31,8 +32,8 @@ struct CutLips {
 };
 inline constexpr const char* kLiningGroup = "mouth_lining";
 
-/// Cuts the lips of a mesh. `skin_groups`: indices of groups. Throws Error naming `place` when no line between the corners is
-/// found.
+/// Cuts the lips of a mesh. `skin_groups`: indices of the mesh groups of the skin. Throws Error when no line between the corners
+/// of the mouth is found; the message begins with `place`.
 CutLips cut_lips(const geom::PolygonMesh& mesh, const Head& head,
                  const std::vector<int>& skin_groups, const std::string& place);
 

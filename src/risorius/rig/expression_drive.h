@@ -22,15 +22,16 @@ struct SidedShape {
 };
 SidedShape split_shape(const std::string& name);
 
-/// The expansion of a name, or empty when the rig's tables do not know it. If the tables give only the whole expression and one
-/// side is requested, it has the muscles of that side, and half of everything without a side.
+/// Returns what the expression `name` adds to the drive; nothing when the rig's tables do not have the name. If the tables have
+/// only the whole expression and one side is requested, the result has the muscles of that side, and half of everything without a
+/// side.
 std::optional<track::Expansion> expansion_named(const rig::RigDescription& rig,
                                                 const std::string& name);
 
-/// The drive of an expansion, with every muscle and channel clamped to its range.
+/// Returns the drive of an expansion, with every muscle and channel clamped to its range.
 track::Drive clamped_drive(const track::Expansion& sum, const track::ChannelTable& channels);
 
-/// The non-zero values of the drive, by the names of columns and channels.
+/// Returns the non-zero values of the drive, with the names of columns and channels as keys.
 Json drive_json(const track::Drive& drive, const track::ChannelTable& channels);
 
 }  // namespace risorius::rig

@@ -18,7 +18,7 @@ namespace risorius::rig {
 
 /// The body that a vertex moves with.
 enum class Carrier : char {
-    kNone,      ///< has no role: moves with the skull and is not drawn
+    kNone,      ///< the vertex has no role; it moves with the skull and is not drawn
     kSkin,      ///< skin, mouth lining, eye sockets: moves with the tissue
     kSkull,     ///< upper teeth and gums
     kMandible,  ///< lower teeth and gums
@@ -44,15 +44,16 @@ struct EyeGeometry {
 /// A mesh in the head frame, and everything that is measured on it.
 struct Head {
     HeadFrame frame;
-    double size = 1.0;             ///< this head over the atlas head
+    double size = 1.0;             ///< length on this head over the same length on the atlas head
     Points vertices;               ///< V x 3
     std::vector<Carrier> carrier;  ///< V
     /// V, for vertices of teeth, gums and tongue: fraction of the mandible's motion that they follow
     std::vector<double> jaw_fraction;
     std::vector<std::string> role_of_group;  ///< one per mesh group, "" when unused
     Triangles skin;                          ///< outer skin, welded vertex indices
-    Triangles lining;         ///< mouth lining and eye sockets, welded vertex indices
-    std::vector<int> welded;  ///< V, the vertex of the welded surface that stands for this vertex
+    Triangles lining;  ///< mouth lining and eye sockets, welded vertex indices
+    /// V; the vertex that stands for this one in the welded surface (geom/weld.h)
+    std::vector<int> welded;
     /// All landmarks of the atlas; missing ones are estimated by warping the atlas and projecting onto the skin
     std::map<std::string, Vec3> landmarks;
     std::vector<std::string> warped_landmarks;  ///< the landmarks that were estimated
@@ -65,11 +66,11 @@ struct Head {
     double mm(double atlas_mm) const { return atlas_mm * 1e-3 * size; }
 };
 
-/// Places a mesh. Throws Error when the mesh lacks a group that the rig names, a landmark lies off the mesh, or the size is not
-/// that of a head.
+/// Places a mesh in the head frame. Throws Error when the mesh lacks a group that the rig names, a landmark lies off the mesh, or
+/// the size is not that of a head.
 Head place_head(const RigDescription& rig, const geom::PolygonMesh& mesh, const std::string& place);
 
-/// The landmarks that are needed to place a head.
+/// Returns the ids of the landmarks that are needed to place a head.
 const std::vector<std::string>& required_landmarks();
 
 }  // namespace risorius::rig

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Thin-plate-spline warp of space that maps landmarks to landmarks (Bookstein 1989), with the kernel |r| of three dimensions.
+/// A smooth map of space that takes landmarks to landmarks: the thin-plate spline (Bookstein 1989), with its kernel |r| in three
+/// dimensions.
 #pragma once
 
 #include <vector>
@@ -11,8 +12,8 @@ namespace risorius::rig {
 
 class LandmarkWarp {
   public:
-    /// Maps `from` to `to` (row by row). With `smoothing` > 0, m, the map is approximate, so that close pairs may contradict each
-    /// other.
+    /// Makes the map that takes each row of `from` to the same row of `to`, n x 3, m. With `smoothing` > 0, m, it does so only
+    /// approximately, so that landmarks close together may contradict each other.
     LandmarkWarp(const Points& from, const Points& to, double smoothing = 1e-4);
     Vec3 operator()(const Vec3& p) const;
 

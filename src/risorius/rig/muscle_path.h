@@ -9,8 +9,9 @@
 
 namespace risorius::rig {
 
-/// Position of a point of a path on this head at rest, m. A point with a depth lies on or near the skin; a point without one lies
-/// on the path itself. Throws Error naming the muscle when the head lacks a landmark.
+/// Returns the position of a point of a path on this head at rest, head frame, m. For a point with a depth, this is the point of
+/// the skin above the path; for a point without one, it is the point of the path itself. Throws Error naming the muscle when the
+/// head lacks a landmark.
 Vec3 place_on(const Head& head, const PathPoint& point, const std::string& muscle);
 
 }  // namespace risorius::rig

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The muscles of face and jaw: properties as Hill-type muscles, and paths. Names are those of rigs/standard/muscles.json;
-/// lengths are those of the atlas head.
+/// The muscles of face and jaw: their parameters as Hill-type muscles, and their paths. Names are those of
+/// rigs/standard/muscles.json; lengths are those of the atlas head.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@
 
 namespace risorius::rig {
 
-/// A point of a muscle path, in a form that can be placed on any head: p = sum of weight * landmark + offset * head size. With a
-/// depth, p is a point on the skin; without one, it is the point of the path itself.
+/// A point of a muscle path, in a form that can be placed on any head: p = sum of weight * landmark + offset * head size. If a
+/// depth is given, p is a point on the skin and the path runs below it; if not, p is the point of the path itself.
 struct PathPoint {
     /// The body that the point moves with.
     enum class Body { kSkull, kMandible, kHyoid, kEyelid, kNeck, kSoft };
@@ -23,7 +23,7 @@ struct PathPoint {
     Vec3 atlas = Vec3::Zero();                              ///< on the atlas head, m
     std::vector<std::pair<std::string, double>> landmarks;  ///< weights add up to 1
     Vec3 offset = Vec3::Zero();                             ///< m, at atlas size
-    /// Depth below the skin over tissue thickness, [0, 1.2]; negative: none given
+    /// Depth below the skin as a fraction of the tissue thickness, [0, 1.2]; negative: not given
     double depth = -1;
     Body body = Body::kSoft;
     std::string attach;  ///< bone, dermis, modiolus, raphe, via, none...
@@ -44,9 +44,9 @@ struct Muscle {
     double force_n = 1.0;  ///< maximum isometric force per side
     bool tonic = false;    ///< has a resting tone that can be reduced: excitation may go down to -1
 
-    // Given for muscles of jaw and hyoid, and for others where the table has them; 0 or empty: not given.
+    // The following are given for muscles of jaw and hyoid, and for others where the table has them; 0 or empty: not given.
     double width_m = 0, thickness_m = 0;  ///< size of the belly
-    double area_m2 = 0;                   ///< physiological cross-section per side
+    double area_m2 = 0;                   ///< physiological cross-sectional area per side
     double optimal_length_m = 0;          ///< optimal length of the fibres
     double tendon_slack_m = 0;            ///< slack length of both tendons together
     double pennation_deg = 0;             ///< at optimal length
@@ -57,7 +57,7 @@ struct Muscle {
     std::vector<MusclePath> paths;  ///< on the left side, or from left to right across the midline
 };
 
-/// The same path on the other side, with mirrored landmarks and offsets.
+/// Returns the path on the other side, with mirrored landmarks and offsets.
 MusclePath mirrored(const MusclePath& path);
 
 /// All muscles of a rig.

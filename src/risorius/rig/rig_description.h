@@ -46,12 +46,13 @@ struct EyesDescription {
     double gaze_limit_deg = 50;
     double iris_radius_mm = 5.95;
     double pupil_radius_mm = 1.8;
-    double upper_lid_per_gaze_down = 0.75;  ///< lid angle over gaze angle
+    /// Ratio: turn of the lid over turn of the gaze; the same for the next four
+    double upper_lid_per_gaze_down = 0.75;
     double upper_lid_per_gaze_up = 0.48;
     double lower_lid_per_gaze_down = 0.29;
     double lower_lid_per_gaze_up = 0.19;
     double lids_per_gaze_aside = 0.25;
-    double wide_deg = 11.5;  ///< elevation of the upper lid by a fully active levator
+    double wide_deg = 11.5;  ///< turn by which a fully active levator raises the upper lid
     /// Fraction of the lid fissure that the upper lid travels when the eye closes; the lower lid travels the rest
     double lid_closed_fraction = 0.96;
 };
@@ -60,7 +61,7 @@ struct EyesDescription {
 /// muscle table.
 struct ActivationDescription {
     std::string law = "thelen2003";  ///< "thelen2003" or "smooth"
-    /// Of the smooth law: sharpness of the transition between rising and falling activation
+    /// For the smooth law: sharpness of the transition between rising and falling activation
     double steepness = 10;
 };
 
@@ -79,7 +80,7 @@ struct TissueDescription {
     double modiolus_shear_ratio = 3.8;
     double crease_shear_ratio = 0.1;  ///< superficial tissue and skin beside the nasolabial fold
     double malar_shear_ratio = 3;     ///< fat pad of the cheek, and the skin over it
-    /// Strain at which a relaxed fibre pulls with its maximum isometric force
+    /// Strain at which a relaxed fibre, stretched, pulls with the maximum isometric force
     double fibre_passive_strain = 1.5;
     double force_scale = 1.5;  ///< factor of the force of every muscle, in addition to its strength
 };
@@ -89,12 +90,12 @@ struct SkinDescription {
     double membrane_n_per_m = 11.4;
     double bending_n_m = 2.9e-5;
     double lid_membrane_ratio = 0.012;
-    /// Depth of wrinkles in compressed skin relative to that of a young adult, 0..10: 0 none, 3 an old face
+    /// Depth of wrinkles in compressed skin over that of a young adult, 0..10: 0 no wrinkles, 3 an old face
     double wrinkles = 1.0;
 };
 
-/// Factors of this head relative to the standard head: how far orbicularis oris turns and pushes the lips, and how much of the
-/// mouth pressure of the standard action units puffs the cheeks. [0.05, 4]
+/// Factors of this head, [0.05, 4]; all are 1 for the standard head. `turn` and `push`: how far orbicularis oris turns and pushes
+/// each lip. `puff`: factor of the mouth pressure by which action units puff the cheeks.
 struct LipsDescription {
     double upper_turn = 1, lower_turn = 1, upper_push = 1, lower_push = 1, puff = 1;
 };
@@ -140,7 +141,7 @@ struct RigDescription {
     std::vector<std::string> notes;                  ///< keys of the file that have been renamed
     std::vector<std::filesystem::path> table_files;  ///< tables that the rig file names
 
-    /// Null for a muscle that is a bundle of fibres
+    /// Returns the entry of a muscle in `solids`; null for a muscle that is a bundle of fibres
     const SolidMuscle* solid(const std::string& muscle) const;
     track::ChannelTable channels() const { return muscles.channels(); }
 };
@@ -148,8 +149,8 @@ struct RigDescription {
 /// Reads a rig file and its tables. Throws Error with file, place, and the expected and the found value.
 RigDescription read_rig(const std::filesystem::path& file);
 
-/// How a rig is written: with copies of the standard tables, or with paths of those in `standard_folder`. The file is written
-/// under a temporary name and then renamed, so that no incomplete file is left.
+/// How a rig is written: with copies of the standard tables (inline_tables), or with the paths of the tables in
+/// `standard_folder`. The file is written under a temporary name and then renamed, so that no incomplete file is left.
 struct RigWriteOptions {
     std::filesystem::path standard_folder;  ///< folder of muscles.json, facs.json, ...
     bool inline_tables = true;

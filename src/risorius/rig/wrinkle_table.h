@@ -16,7 +16,7 @@ namespace risorius::rig {
 
 inline constexpr const char* kWrinkleFile = "wrinkles.json";  ///< a file of the standard anatomy
 
-/// One end of a smooth step: fraction * base + each of `plus_mm`, added in this order.
+/// One end of the range of a smooth step: its value is fraction * base + the sum of `plus_mm`, added in this order.
 struct WrinkleBound {
     std::string landmark;  ///< the base is a coordinate of this landmark; empty: none
     std::string less;      ///< if given, the base is |landmark - less|
@@ -27,7 +27,7 @@ struct WrinkleBound {
     std::vector<double> plus_mm = {};  ///< for kTurnAbout an angle, rad
 };
 
-/// A smooth step between 0 and 1 of a quantity of a skin point.
+/// A factor 0..1 of the depth of wrinkles at a point of the skin: a smooth step of a quantity of the point between two bounds.
 struct WrinkleFactor {
     enum class Of {
         kHeight,       ///< y
@@ -50,8 +50,8 @@ struct WrinkleFactor {
     WrinkleBound from, to;
 };
 
-/// A muscle that folds the lines. 1: it pulls across them from its origin to its insertion; -1: in the opposite direction; 0: not
-/// on that side.
+/// A muscle that folds the skin along the lines. `left` and `right`: 1 if the muscle pulls across the lines from its origin to
+/// its insertion; -1 if it pulls in the opposite direction; 0 if it does not act on that side.
 struct WrinkleFibres {
     std::string muscle;
     double left = 1, right = 1;
@@ -66,11 +66,13 @@ struct CreasePoint {
 /// One set of lines.
 struct WrinklePattern {
     std::string name;
-    bool each_side = false;    ///< exists on the left and, mirrored, on the right
-    bool aged = false;         ///< only on old skin: the fraction grows with age
+    bool each_side = false;  ///< exists on the left and, mirrored, on the right
+    /// True: the lines exist only on old skin, and `fraction` grows with age
+    bool aged = false;
     int slot = 0;              ///< overlapping patterns have different slots, 0..2
     double wavelength_mm = 0;  ///< distance between the lines
-    /// Fraction of the depth that would keep the length of the skin, 0..1; the rest of the compression thickens the skin
+    /// Depth of the lines, 0..1: as a fraction of the depth at which the length of the skin would not change. The rest of the
+    /// compression thickens the skin
     double fraction = 1;
     double permanence = 0;      ///< fraction of the depth that remains in old skin at rest, 0..1
     double jitter = 0.16;       ///< random displacement of the lines, wavelengths
@@ -80,9 +82,11 @@ struct WrinklePattern {
     double anchor_phase = 0;    ///< wavelengths; 0 is a valley
     bool along_fibres = false;  ///< the lines run along the fibres instead of across them
     std::vector<WrinkleFibres> fibres = {};
-    std::vector<CreasePoint> crease = {};  ///< the line itself, instead of fibres
-    bool front_only = true;                ///< not behind the plane of the ears
-    double min_outward_mm = -1e9;          ///< not nearer to the midplane than this
+    /// The points of the line itself, for a pattern without fibres
+    std::vector<CreasePoint> crease = {};
+    /// True: there are no lines behind the plane of the ears
+    bool front_only = true;
+    double min_outward_mm = -1e9;  ///< there are no lines nearer to the midplane than this
     /// The pattern lies where the product of these factors is positive
     std::vector<WrinkleFactor> window = {};
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Scores the similarity of a simulated displacement field of the skin and a measured one.
+/// Scores how similar a simulated displacement field of the skin is to a measured one.
 ///
 ///   u, g   simulated, measured displacement, V x 3, m     w   skin area of each vertex, m^2
 ///   cosine   <u, g>_w / (|u|_w |g|_w)         relative   |u - g|_w / |g|_w (1 when the simulated skin does not move)
@@ -31,10 +31,11 @@ struct ExpressionScore {
     Json json() const;  ///< lengths in mm
 };
 
-/// Skin area of each vertex, m^2: a third of the area of each of its triangles.
+/// Returns the area of each vertex, m^2: a third of the area of each of its triangles.
 Eigen::VectorXd vertex_areas(const Triangles& triangles, const Points& rest);
 
-/// The same for the vertices of the simulated skin. Vertices of eyes, teeth and tongue get a fifth of the mean of the skin.
+/// Returns the area of each vertex of the face's mesh, m^2. Vertices of eyes, teeth and tongue get a fifth of the mean over the
+/// skin.
 Eigen::VectorXd seen_areas(const face::Face& face);
 
 /// Scores two fields of displacements. `area`: weight of each vertex. `landmark_vertices`: for landmark_m.

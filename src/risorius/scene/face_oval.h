@@ -12,7 +12,7 @@ namespace risorius::scene {
 
 class FaceOval {
   public:
-    /// Ids of the landmarks around the face, in no particular order.
+    /// Returns the ids of the landmarks around the face, in no particular order.
     static const std::vector<std::string>& landmarks();
 
     /// `points`: the landmarks that the head has, in pixels. An oval of fewer than three points contains nothing.

@@ -27,7 +27,7 @@ class LandmarkDisplacements {
 
     const std::vector<std::string>& landmarks() const { return ids_; }
     int vertex(std::size_t landmark) const { return points_.vertex(ids_[landmark]); }
-    /// The drive of an expression from the rig's tables. Throws Error for an unknown name.
+    /// Returns the drive of an expression from the rig's tables. Throws Error for an unknown name.
     track::Drive drive(const std::string& expression) const;
     /// Solves the equilibrium of the face under the drive, from rest, and returns the displacements of landmarks(): n x 3, m, at
     /// the size of the atlas head.
@@ -45,10 +45,10 @@ class LandmarkDisplacements {
     bool in_equilibrium_ = true;
 };
 
-/// Expression -> landmark -> displacement, m.
+/// A map from the name of an expression to a map from the id of a landmark to its displacement, m.
 using DisplacementTable = std::map<std::string, std::map<std::string, Vec3>>;
 
-/// Reads a file of the format above. Throws Error.
+/// Reads a file of the format above. Throws Error for a wrong file.
 DisplacementTable read_landmark_displacements(const std::filesystem::path& file);
 Json landmark_displacements_json(const DisplacementTable& displacements, const std::string& source);
 

@@ -24,7 +24,8 @@ struct RigFiles {
 /// Reads both files. Throws Error when the rig or its mesh cannot be used.
 RigFiles read_rig_files(const std::filesystem::path& rig_file);
 
-/// Checks the outer skin; other parts of the mesh need not be manifold. Throws Error naming the mesh file.
+/// Checks the outer skin by geom::check_mesh(); other parts of the mesh need not be manifold. Throws Error; the message names the
+/// mesh file.
 geom::MeshReport check_skin(const rig::RigDescription& rig, const geom::PolygonMesh& mesh);
 
 }  // namespace risorius::scene

@@ -12,22 +12,24 @@
 
 namespace risorius::scene {
 
-/// The scene of a head. Throws Error when a texture cannot be read.
+/// Returns the scene of a head. Throws Error when a texture cannot be read.
 render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& rig,
                              const geom::PolygonMesh& mesh);
 
 /// Adds the lines along which the skin can wrinkle. Call it before a view of the scene is made.
 void add_wrinkles(const face::WrinkleLines& lines, render::Scene& scene);
 
-/// The pose of a frame for the renderer.
+/// Returns the pose of a frame for the renderer.
 render::Pose pose_for_view(const face::FacePose& pose);
 
-/// The shapes of the muscles for the scene; and for the pose of a frame their colours and positions.
+/// The first function returns the muscles for the scene. The second one adds their activations (shown as colours) and positions
+/// to the pose of a frame.
 render::Muscles muscles_for_view(const face::MuscleSurfaces& surfaces);
 void add_muscles(const face::MuscleSurfaces& surfaces, const Eigen::VectorXd& activation,
                  Points vertices, render::Pose& pose);
 
-/// The bones for the scene, vertices of the skull first; and for the pose of a frame their positions.
+/// The first function returns the bones for the scene, with the vertices of the skull first. The second one adds their positions
+/// to the pose of a frame.
 render::Bones bones_for_view(const face::Skull& skull);
 void add_bones(const face::Skull& skull, const face::FacePose& pose, render::Pose& out);
 

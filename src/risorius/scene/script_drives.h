@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The drive of a script over time for a face that is not simulated: excitation is converted to activation by activation
+/// The drive of a script over time for a face that is not simulated. Excitation is converted to activation by activation
 /// dynamics; other channels are as in the script.
 #pragma once
 
@@ -15,12 +15,12 @@ class ScriptDrives {
   public:
     ScriptDrives(const track::ScriptDescription& script, const rig::RigDescription& rig);
 
-    /// The drive at a time; its `excitation` holds activation. Times must ascend from call to call. Muscles start in the steady
-    /// state of time 0.
+    /// Returns the drive at a time; its `excitation` holds activation. Times must ascend from call to call. Muscles start in the
+    /// steady state of time 0.
     track::Drive at(double t_s);
 
   private:
-    /// The activation that a constant drive approaches.
+    /// Returns the activation of every column that a constant drive approaches.
     Eigen::VectorXd steady(const track::Drive& drive) const;
 
     track::Timeline timeline_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Additions to the picture of a face: a quantity as colours on the skin, or lines and marks over it.
+/// Makes what some kinds of pictures (render::Show) add to a face: a quantity as colours on the skin, or lines and marks over it.
 #pragma once
 
 #include <array>
@@ -16,22 +16,25 @@
 
 namespace risorius::scene {
 
-/// Signed principal strain of the skin per vertex, ratio: of the two principal strains the one with the larger magnitude,
-/// averaged over the triangles of the vertex, weighted by rest area. Vertices outside the skin get NaN.
+/// Returns the signed principal strain of the skin at each vertex, a ratio. In each triangle it is the one of the two principal
+/// strains that has the larger magnitude; a vertex gets the mean over its triangles, weighted by their area at rest. Vertices
+/// outside the skin get NaN.
 std::vector<double> principal_strain(const Triangles& skin, const Points& rest,
                                      const Points& positions);
 
-/// The additions that a value of Show asks for.
+/// The additions for one value of render::Show.
 class Visualization {
   public:
     Visualization(render::Show show, const render::Scene& scene, const rig::Head& head,
                   const geom::PolygonMesh& mesh, const render::OffscreenView& view, int width_px,
                   int height_px, const LandmarkPoints& landmarks, std::optional<double> scale = {});
 
-    /// End of the colour scale: strain (ratio, in both directions from 0) or error (mm). Default: 0.4 and 5 mm.
+    /// Returns the end of the colour scale: `given`, or else 0.4 for strain (ratio; the scale goes from -0.4 to 0.4) and 5 mm for
+    /// error.
     static double scale_end(render::Show show, std::optional<double> given);
 
-    /// The quantity per vertex, or none. `reference`: positions in the run to compare with.
+    /// Returns the quantity at each vertex, or nothing if the picture shows none. `reference`: positions in the run to compare
+    /// with, V x 3, m.
     std::optional<render::SkinValues> values(const Points& positions,
                                              const std::optional<Points>& reference) const;
     /// Draws lines and marks over a picture of the pose.

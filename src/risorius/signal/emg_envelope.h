@@ -14,24 +14,25 @@
 
 namespace risorius::signal {
 
-/// Field names are keys of "emg" in a script.
+/// Settings of the filters. Field names are keys of "emg" in a script.
 struct EmgFilters {
     std::optional<std::array<double, 2>> band_pass_hz = {{20, 450}};  ///< none: no band-pass
     std::vector<double> notch_hz;  ///< mains frequency and its harmonics; each notch is 4 Hz wide
     std::optional<double> low_pass_hz = 6;
-    int order = 2;  ///< of each of the two passes
+    int order = 2;  ///< order of the filters in each of the two passes, forwards and backwards
     bool rectify = true;
 };
 
-/// Number of samples by which filter_both_ways extends the ends: two periods of the slowest filter. A recording must be longer
-/// than that.
+/// Returns the number of samples by which filter_both_ways() extends the ends: two periods of the filter of lowest frequency. A
+/// recording must be longer than that.
 std::size_t padding_of(const EmgFilters& filters, double rate_hz);
 
-/// The envelope in the unit of the samples, never negative. Every frequency must be below rate_hz / 2.
+/// Returns the envelope in the unit of the samples; it is never negative. Every frequency must be below rate_hz / 2.
 std::vector<double> emg_envelope(std::vector<double> samples, double rate_hz,
                                  const EmgFilters& filters);
 
-/// Value below which `percent` of the samples lie, linear between neighbouring samples. 100 gives the maximum.
+/// Returns the value below which `percent` per cent of the samples lie, interpolated linearly between neighbouring samples. 100
+/// gives the maximum.
 double percentile(std::vector<double> samples, double percent);
 
 }  // namespace risorius::signal

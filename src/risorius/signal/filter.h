@@ -27,14 +27,15 @@ using Filter = std::vector<Section>;
 /// `order` is even and at least 2; 0 < cutoff_hz < rate_hz / 2. `passes`: how often the filter will run.
 Filter low_pass(int order, double cutoff_hz, double rate_hz, int passes = 2);
 Filter high_pass(int order, double cutoff_hz, double rate_hz, int passes = 2);
-/// Removes the frequency `hz`. The band is `width_hz` wide at -3 dB of one pass.
+/// Makes a filter that removes the frequency `hz`. The removed band is `width_hz` wide, between the points at which one pass is
+/// at -3 dB.
 Filter notch(double hz, double width_hz, double rate_hz);
 
-/// Amplitude of one pass at a frequency.
+/// Returns the amplitude by which one pass multiplies a sine of the given frequency.
 double gain(const Filter& filter, double hz, double rate_hz);
 
-/// Runs forwards, then backwards. Both ends are extended by `padding` samples, reflected about the value at the end. Each pass
-/// starts in the steady state of its first sample. Needs more samples than `padding`.
+/// Filters the samples forwards, then backwards. Both ends are extended by `padding` samples, reflected about the value at the
+/// end. Each pass starts in the steady state of its first sample. Needs more samples than `padding`.
 std::vector<double> filter_both_ways(const Filter& filter, const std::vector<double>& samples,
                                      std::size_t padding);
 

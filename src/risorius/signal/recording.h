@@ -21,14 +21,14 @@ class Recording {
     const std::vector<std::string>& columns() const { return columns_; }
     std::size_t sample_count() const { return lines_.size(); }
 
-    /// Index of a column; -1 when there is none of that name.
+    /// Returns the index of a column; -1 when there is none of that name.
     int find(const std::string& column) const;
 
     /// Throws Error that names file, line and column of a value that is not a finite number.
     std::vector<double> samples(int column) const;
 
-    /// Sampling rate, Hz, from a column of times, s. Throws Error when times do not increase, or when a step differs from the
-    /// usual one by more than half of it.
+    /// Returns the sampling rate, Hz, from a column of times, s. Throws Error when times do not increase, or when a step differs
+    /// from the usual one by more than half of it.
     double rate_hz(int time_column) const;
 
   private:

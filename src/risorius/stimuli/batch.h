@@ -21,7 +21,8 @@ namespace risorius::stimuli {
 struct BatchOptions {
     std::filesystem::path design, out;
     int workers = 2;  ///< number of clips that are made at the same time
-    /// When several machines make the set: which part of the clips this one makes, from 1, and the number of parts
+    /// When several machines make the set: the number of the part of the clips that this one makes, from 1, and the number of
+    /// parts
     int part = 1, parts = 1;
     /// Called when a clip is "kept", "filmed" (rendered, to be matched in luminance later), "made" or "failed"; `why` is empty
     /// unless it failed. Calls come from several threads, one at a time.
@@ -34,7 +35,8 @@ struct BatchPlan {
     std::string name;
     design::Match match;
     std::optional<design::ExperimentOptions> experiment;
-    /// Balance of each set whose design uses only a part of its crossing, by the name of the set.
+    /// For each set of conditions that uses only a part of its crossing: how balanced that part is (design/crossing.h). The key
+    /// is its name.
     std::vector<std::pair<std::string, design::Balance>> balances;
     std::vector<ClipPlan> clips;
     /// Problems that do not prevent rendering, but may be mistakes
@@ -45,17 +47,17 @@ struct BatchPlan {
     double megabytes() const;  ///< estimated
 };
 
-/// Reads the design, crosses its factors and checks every clip. Renders nothing. Throws Error.
+/// Reads the design, crosses its factors and checks every clip. Renders nothing. Throws Error for a wrong design.
 BatchPlan plan_batch(const std::filesystem::path& design);
 
 /// Throws Error unless the folder is new, empty or one that a batch has begun.
 void check_batch_folder(const std::filesystem::path& out);
 
-/// Result of make_batch().
+/// The result of make_batch(): numbers of clips and conditions.
 struct BatchReport {
     std::string name;
     int made = 0, kept = 0;
-    int elsewhere = 0;  ///< clips of other parts
+    int elsewhere = 0;  ///< clips that belong to other parts
     /// Conditions of other parts that must be rendered before luminance can be matched
     int unmeasured = 0;
     std::vector<std::pair<std::string, std::string>> failed;  ///< name of the clip and reason

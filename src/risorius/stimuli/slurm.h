@@ -15,9 +15,10 @@ namespace risorius::stimuli {
 
 /// Options of the Slurm job.
 struct SlurmOptions {
-    /// The command that makes one part of the set on a node: its words, given the design, the folder of the set, how many clips are
-    /// made at once, and the part as "N/COUNT". N is the number of the task; the batch script puts it in. The command writes one JSON
-    /// object per clip to standard output: {"event": "failed", "stim_id": ..., "why": ...}.
+    /// Returns the words of the command that makes one part of the set on a node. Arguments: the design, the folder of the set,
+    /// the number of clips made at the same time, and the part as "N/COUNT". N is the number of the task; the batch script
+    /// replaces it. The command writes one JSON object per clip to standard output: {"event": "failed", "stim_id": ..., "why":
+    /// ...}.
     std::function<std::vector<std::string>(const std::filesystem::path& design,
                                            const std::filesystem::path& out, int workers,
                                            const std::string& part)>

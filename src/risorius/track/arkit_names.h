@@ -9,7 +9,7 @@
 
 namespace risorius::track {
 
-/// "eyeBlinkLeft" and so on, in the order above.
+/// Returns the names "eyeBlinkLeft" and so on, in the order of the source.
 const std::vector<std::string>& arkit_names();
 
 }  // namespace risorius::track

@@ -16,7 +16,7 @@
 
 namespace risorius::track {
 
-/// A muscle as a channel.
+/// A muscle that a script may drive.
 struct MuscleChannel {
     std::string id;  ///< name in the rig's muscle table
     bool paired = true;
@@ -53,21 +53,21 @@ enum class Kinematic {
 inline constexpr int kKinematicCount = static_cast<int>(Kinematic::kCount);
 using KinematicValues = std::array<double, kKinematicCount>;
 
-/// Name of a kinematic channel in scripts, and its limits. The limits of gaze and head are adult norms.
+/// Name of a kinematic channel in scripts, and its limits in its unit. The limits of gaze and head are norms of adults.
 struct KinematicChannel {
     std::string_view name;  ///< with its side, "gaze_yaw_deg.l"
     double min;
     double max;
 };
 
-/// In the order of Kinematic.
+/// Returns the kinematic channels in the order of Kinematic.
 const std::array<KinematicChannel, kKinematicCount>& kinematic_channels();
 
-/// The channels of a name in a script: one channel, or those of both eyes when a gaze channel has no side. Empty when the name
-/// is unknown.
+/// Returns the channels that a name in a script means: one channel, or those of both eyes for the name of a gaze channel without
+/// a side. Empty when the name is unknown.
 std::vector<Kinematic> kinematic_named(std::string_view name);
 
-/// "zygomaticus_major.l" is "zygomaticus_major" and left. A name without suffix has no side.
+/// A name split into id and side: "zygomaticus_major.l" is "zygomaticus_major" and left. A name without suffix has no side.
 struct SidedName {
     std::string id;
     std::optional<Side> side;
@@ -95,9 +95,11 @@ enum class JawDrive { kChannels, kMuscles };
 
 /// Everything that drives a face at one moment.
 struct Drive {
-    /// Per column, fraction of the maximal neural drive, [min, 1], see clamped_drive(). Empty: no muscle is active.
+    /// One value per column: the excitation as a fraction of the maximal neural drive, [min, 1], see clamped_drive(). Empty: no
+    /// muscle is active.
     Eigen::VectorXd excitation;
-    /// Per column, activation set directly instead of following the excitation, [0, 1]; NaN where it follows. Empty: all follow.
+    /// One value per column: the activation, [0, 1], where it is set directly; NaN where it follows the excitation. Empty: all
+    /// follow.
     Eigen::VectorXd activation;
     KinematicValues kinematic{};
     double at(Kinematic k) const { return kinematic[static_cast<std::size_t>(k)]; }

@@ -18,7 +18,7 @@
 
 namespace risorius::track {
 
-/// The part of a muscle in a unit.
+/// The contribution of a muscle to an action unit.
 struct MuscleFraction {
     std::string muscle;
     std::optional<Side> side;  ///< none: both sides
@@ -40,11 +40,11 @@ struct ActionUnit {
     std::vector<MuscleFraction> muscles;
     KinematicValues kinematic{};
     std::string unsupported;  ///< why this face cannot show the unit; empty when it can
-    /// Left or midline landmark, and its displacement.
+    /// Displacements that the unit should cause: a landmark on the left side or the midline, and its displacement.
     std::vector<std::pair<std::string, Vec3>> landmark_targets_mm;
 };
 
-/// A unit with its intensity, as an entry of a list.
+/// An action unit and its intensity.
 struct UnitUse {
     std::string unit;  ///< id in FacsTable::units
     std::optional<Side> side;
@@ -84,11 +84,11 @@ FacsTable read_facs(const JsonCursor& json, const ChannelTable& channels);
 /// A unit of an expression, with its delay.
 struct ExpressionUnit {
     UnitUse use;
-    /// Start of the unit after that of the first one, as a fraction of the onset, [0, 0.9]
+    /// Delay of the start of the unit behind that of the first unit, as a fraction of the onset, [0, 0.9]
     double delay = 0;
 };
 
-/// A named set of units with usual times.
+/// An expression: a named set of units, with the usual durations of onset, hold and offset.
 struct Expression {
     std::string name;
     double onset_s = 0.5;  ///< usual durations, for scripts that give none
@@ -105,7 +105,7 @@ struct Expressions {
 /// Reads expressions.json. Throws Error for unknown units and values outside their ranges.
 Expressions read_expressions(const JsonCursor& json, const FacsTable& facs);
 
-/// Contribution of a source with value 1 to the drive.
+/// What a source (muscle, action unit or shape) with value 1 adds to the drive.
 struct Expansion {
     Eigen::VectorXd excitation;  ///< per column
     KinematicValues kinematic{};
@@ -118,15 +118,16 @@ Expansion expand(const MuscleFraction& fraction, const ChannelTable& channels);
 Expansion expand(const ActionUnit& unit, std::optional<Side> side, const ChannelTable& channels);
 Expansion expand(const ArkitShape& shape, const FacsTable& facs, const ChannelTable& channels);
 
-/// "zygomaticus_major.l" with weight 1. Throws Error at `place` for an unknown muscle, or for a side it does not have.
+/// Returns the muscle with a name such as "zygomaticus_major.l", with weight 1. Throws Error at `place` for an unknown muscle, or
+/// for a side that it does not have.
 MuscleFraction muscle_named(const JsonCursor& place, const std::string& name,
                             const ChannelTable& channels);
 
-/// True for "AU" and a number, whether a table has the unit or not.
+/// Returns whether a name is "AU" followed by a number, whether or not a table has that unit.
 bool is_unit_number(std::string_view name);
 
-/// "AU12.l" as a use with value 1. Throws Error at `place` for a unit that is unknown, that has no sides, or that the rig
-/// cannot show.
+/// Returns the unit with a name such as "AU12.l", with value 1. Throws Error at `place` for a unit that is unknown, that has no
+/// sides, or that the rig cannot show.
 UnitUse unit_named(const JsonCursor& place, const std::string& name, const FacsTable& facs);
 
 }  // namespace risorius::track

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// How a face moves from one drive to the next.
+/// The two modes of motion of a simulated face.
 #pragma once
 
 namespace risorius::track {
 
-/// kDynamic: with inertia, damping and activation dynamics. kQuasiStatic: every frame is an equilibrium under its drive, and
-/// excitation is used as activation.
+/// kDynamic: the face moves with inertia, damping and activation dynamics. kQuasiStatic: the face is in equilibrium under its
+/// drive in every frame, and excitation is used as activation.
 enum class Motion { kDynamic, kQuasiStatic };
 
 }  // namespace risorius::track

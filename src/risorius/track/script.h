@@ -46,21 +46,23 @@ struct ScriptView {
 
 /// The part of a script that is known before the rig is read.
 struct ScriptHeader {
-    std::string rig;                 ///< as written
-    std::filesystem::path rig_file;  ///< relative paths start at the script's folder
-    int fps = 60;                    ///< 1..240
-    double duration_s = 0;           ///< (0, 3600], at least one frame
+    std::string rig;  ///< as written
+    /// Path of the rig file; a relative `rig` starts at the script's folder
+    std::filesystem::path rig_file;
+    int fps = 60;           ///< 1..240
+    double duration_s = 0;  ///< (0, 3600], at least one frame
     int seed = 1;
     JawDrive jaw = JawDrive::kChannels;  ///< "channels" or "muscles"
     Motion motion = Motion::kDynamic;    ///< "dynamic" or "quasi_static"
-    /// true: 9.81 m/s^2 downwards. false: none; the face hangs as when upright, whatever the pose of the head. Or a vector.
+    /// "gravity" of the script: true is 9.81 m/s^2 downwards; a vector is used as given; false is no value, and then the face
+    /// hangs as when upright, whatever the pose of the head.
     std::optional<Vec3> gravity_m_s2{Vec3(0, -9.81, 0)};
     ScriptView view;
 
     int frame_count() const;
 };
 
-/// Frame n shows time n / fps.
+/// Returns the number of frames of a video, of which frame n shows the time n / fps.
 int frame_count(double duration_s, int fps);
 
 /// The course of one channel over time.
@@ -82,7 +84,7 @@ struct ExpressionEvent {
     std::string expression;
     std::optional<Side> side;  ///< none: as in the table
     double intensity = 1;      ///< [0, 1]
-    /// Maximum random reduction of one side, which also starts up to 40 ms late, [0, 0.5]
+    /// Maximum of a random reduction of the intensity on one side, [0, 0.5]. That side also starts up to 40 ms late
     double asymmetry = 0;
     double start_s = 0, onset_s = 0, hold_s = 0, offset_s = 0;
     std::vector<Part> parts;
@@ -97,7 +99,7 @@ struct BlinkEvent {
     Expansion drives;  ///< of AU45 at this intensity
 };
 
-/// Excitation from a recorded electromyogram, [min of the muscle, 1].
+/// The excitation of a muscle from a recorded electromyogram. Its range is [min of the muscle, 1].
 struct EmgTrack {
     std::string muscle;  ///< "zygomaticus_major.l"
     SampledCurve excitation;
@@ -112,7 +114,7 @@ struct ScriptDescription {
     std::vector<ExpressionEvent> expressions;
     std::vector<BlinkEvent> blinks;  ///< includes those of idle events
     std::vector<IdleEvent> idle;
-    /// Per column; fraction of a muscle's strength that is missing, [0, 1]; empty: none.
+    /// One value per column: the fraction of a muscle's strength that is missing, [0, 1]. Empty: no muscle is weak.
     Eigen::VectorXd weakness;
     std::array<double, 2> late_s{0, 0};  ///< delay of all muscles of a side, [0, 10]
     /// Files that were read besides the script itself.
@@ -128,7 +130,7 @@ ScriptHeader read_script_header(const JsonCursor& script);
 ScriptDescription read_script(const std::filesystem::path& file, const ChannelTable& channels,
                               const FacsTable& facs, const Expressions& expressions);
 
-/// For scripts that are in memory.
+/// Does the same for a script that is in memory.
 ScriptDescription read_script(const JsonCursor& script, const ChannelTable& channels,
                               const FacsTable& facs, const Expressions& expressions);
 

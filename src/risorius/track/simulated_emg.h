@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Simulated linear envelopes of surface electrodes above every muscle, as columns of the frame table.
+/// Simulates electromyography (EMG): the linear envelopes that surface electrodes above every muscle would record. They are
+/// columns of the frame table.
 ///
 ///   e = (u - min) / (1 - min)      electrical activity, fraction of the maximum; u excitation; min 0, or -1 for a muscle
 ///                                  with resting tone that can be reduced
@@ -20,7 +21,7 @@
 
 namespace risorius::track {
 
-/// The envelopes of all columns, at any time.
+/// Computes the envelopes of all columns at any time.
 class SimulatedEmg {
   public:
     using DriveAt = std::function<Drive(double t_s)>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A script at any moment: the drive of every muscle, the jaw, the eyes and the head.
+/// Evaluates a script at any time: the drive of every muscle, the jaw, the eyes and the head.
 ///
 /// The sources of a muscle or channel are added, and the sum is clamped to its range. A blink is two pulses of AU45: the
 /// levator of the lid becomes silent, 10 ms later orbicularis oculi fires, and both pulses end together. With activation
@@ -22,7 +22,7 @@ namespace risorius::track {
 inline constexpr double kBlinkLead_s = 0.010;
 /// Time from the end of the pulses until the lids are open again.
 inline constexpr double kBlinkReopening_s = 0.140;
-/// A shorter blink would end before orbicularis fires.
+/// The smallest duration of a blink; a shorter one would end before orbicularis fires.
 inline constexpr double kShortestBlink_s = 0.160;
 
 /// Evaluates a script.
@@ -30,11 +30,12 @@ class Timeline {
   public:
     Timeline(const ScriptDescription& script, const ChannelTable& channels);
 
-    /// Takes microseconds. It should be called at every simulation step: a blink is short, and steps above 5 ms blur it.
+    /// Returns the drive at a time, within microseconds. Call it at every simulation step, because a blink is short, and steps
+    /// above 5 ms blur it.
     Drive at(double t_s) const;
 
   private:
-    /// The drive without the delays of sides.
+    /// Returns the drive without the delays of the sides (ScriptDescription::late_s).
     Drive together_at(double t_s) const;
     struct Source {
         Curve curve;
@@ -57,7 +58,8 @@ class Timeline {
     std::array<std::vector<int>, 2> side_columns_;  ///< columns of paired muscles
 };
 
-/// Fraction of an expression's unit at t: 0 before its delayed onset, 1 while it is held, 0 after the offset.
+/// Returns the fraction of its intensity that a unit of an expression has at t: 0 before its delayed onset, 1 while it is held, 0
+/// after the offset.
 double expression_profile(const ExpressionEvent& event, double delay, double t_s);
 
 }  // namespace risorius::track

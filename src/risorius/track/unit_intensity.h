@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Intensity of every action unit of a script at any moment, left and right, as a FACS coder would rate it.
+/// The intensity of every action unit of a script at any time, left and right, as a human coder of FACS would rate it.
 ///
 /// Only channels of units, expressions and blinks count, because muscles and recordings do not name a unit. The sum of the
 /// sources is limited to 1. A blink is AU45 from the start of its drive until the lids are released.

@@ -35,7 +35,8 @@ namespace risorius::animate {
 
 struct FrameTableOptions {
     bool landmarks = false;
-    std::function<Vec2(const Vec3& world)> project;     ///< pixels; needed with landmarks
+    /// Position in the picture, px; needed when the table has landmarks
+    std::function<Vec2(const Vec3& world)> project;
     std::function<Eigen::VectorXd(double time_s)> emg;  ///< for each column; empty: no such columns
     std::array<Vec3, 2> eye_forward{Vec3::UnitZ(), Vec3::UnitZ()};  ///< direction of gaze at rest
     bool masks = false;  ///< adds mean luminance within each mask
@@ -51,8 +52,8 @@ class FrameTable {
     /// Adds the row of a frame, without its picture.
     void add(int frame, double time_s, const track::Drive& drive, const Eigen::VectorXd& activation,
              const face::FacePose& pose);
-    /// Adds measures of the picture of the next frame, in order. May be called on another thread than add(). `within`: luminance in
-    /// face, eyes and mouth, with masks.
+    /// Adds the measures of the picture of the next frame; frames come in order. It may be called on another thread than add().
+    /// `within`: mean luminance in the masks of face, eyes and mouth; used when there are masks.
     void add_picture(const media::PictureMeasures& picture, const std::array<double, 3>& within,
                      bool photodiode_lit);
     std::string text() const;

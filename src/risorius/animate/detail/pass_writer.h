@@ -23,22 +23,23 @@
 
 namespace risorius::animate {
 
-/// "segmentation", "depth", "normals", "flow", "masks"
+/// The names of the passes: "segmentation", "depth", "normals", "flow", "masks".
 const std::vector<std::string>& pass_names();
 
 class PassWriter {
   public:
-    /// Throws Error when the folder holds other files than results.
+    /// Throws Error when the folder exists and holds files that are not results.
     PassWriter(const std::filesystem::path& folder, const std::vector<std::string>& passes,
                const render::Scene& scene, const Eigen::Matrix4d& clip_from_world, int width_px,
                int height_px, const scene::LandmarkPoints& landmarks);
 
     /// Adds a frame, in order. `positions`: V x 3, m, in the order of the mesh.
     void add(int frame, const Points& positions);
-    /// Gives the folder its name. Throws RunError.
+    /// Gives the folder its final name. Throws RunError when it cannot be renamed.
     void commit();
 
-    /// The masks of the last frame, one value for each pixel, not 0 inside; empty when the passes have no masks.
+    /// Returns the masks of the last frame: one value per pixel, not 0 inside. They are empty when "masks" is not among the
+    /// passes.
     struct Masks {
         std::vector<std::uint16_t> face, eyes, mouth;
     };

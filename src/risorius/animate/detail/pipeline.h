@@ -15,7 +15,7 @@
 
 namespace risorius::animate {
 
-/// How many items may be produced and not yet consumed, beyond one for each worker.
+/// Limit of the number of items that are produced and not yet consumed, in addition to one per worker.
 constexpr int kMaxWaiting = 4;
 
 /// Calls consume(i, transform(worker, i, produce(i))) for i = 0 .. count - 1. With workers, produce() runs ahead on the calling

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Another script, simulated on the same rig at the same times, to compare vertex positions with.
+/// Simulates another script on the same rig at the same times, so that vertex positions can be compared.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ namespace risorius::animate {
 
 class ReferenceRun {
   public:
-    /// Builds a face of its own. `files` must outlive the run.
+    /// Builds a face of its own. `files` must outlive this object.
     ReferenceRun(const track::ScriptDescription& script, const scene::RigFiles& files,
                  const std::string& quality);
     ~ReferenceRun();

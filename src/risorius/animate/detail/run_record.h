@@ -20,16 +20,17 @@ struct InputFile {
     std::string sha256;
 };
 
-/// Solver statistics of a run. Maxima are over all steps.
+/// Solver statistics of a run. Maxima are over all steps unless stated otherwise.
 struct SolverStats {
     int steps = 0;
     double mean_iterations = 0;
     int max_iterations = 0;
     double converged_fraction = 0;    ///< fraction of the steps that reached their tolerance
     double max_last_step_rms_mm = 0;  ///< RMS motion of the nodes in the last iteration of a step
-    double max_contact_depth_mm = 0;  ///< penetration that a step leaves
-    double max_muscle_volume_error = 0;  ///< relative error of the volume of a volume muscle
-    int max_inverted_tets = 0;           ///< in a frame
+    double max_contact_depth_mm = 0;  ///< penetration that is left at the end of a step
+    /// Relative error of the volume of a muscle that is simulated as a solid
+    double max_muscle_volume_error = 0;
+    int max_inverted_tets = 0;  ///< number of inverted tetrahedra, maximum over the frames
 };
 SolverStats solver_stats(const std::vector<face::StepStats>& history, int max_inverted_tets);
 
@@ -56,7 +57,7 @@ struct RunRecord {
     std::string graphics;     ///< render::gl_in_use()
     std::string quality;
     int antialiasing = 2;           ///< samples per pixel and side
-    std::string jaw;                ///< "channels" or "muscles", whichever moves the jaw
+    std::string jaw;                ///< what moves the jaw: "channels" or "muscles"
     double max_jaw_opening_mm = 0;  ///< between the incisors, over all frames
     double max_tooth_force_n = 0;   ///< on all teeth together, when muscles move the jaw
     int nodes = 0, tets = 0, dropped_tets = 0, fibres = 0;

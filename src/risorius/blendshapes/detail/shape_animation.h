@@ -23,13 +23,13 @@ struct ShapeAnimation {
     std::vector<track::Drive> drives;  ///< one per frame, for the pose of head and eyes
 };
 
-/// Converts the frames of a script to weights of `goals`. Muscles follow their drive as in a render, and the face is in
-/// equilibrium in every frame.
+/// Converts the frames of a script to weights of the shapes `goals`. The activation of muscles follows the script over time as in
+/// `risorius render`, and the weights of each frame are those for the face in equilibrium.
 ShapeAnimation bake_script(const std::filesystem::path& script, const scene::RigFiles& files,
                            const std::vector<ShapeGoal>& goals, const ShapeWeights& weights);
 
-/// A table in the format of Live Link Face: one row per frame with the 52 shapes of ARKit in its order, followed by the rotations
-/// of head and eyes, rad. Throws Error when the animation has other shapes.
+/// Returns a table (CSV) in the format of the app Live Link Face: one row per frame with the 52 shapes of ARKit in their standard
+/// order, followed by the rotations of head and eyes, rad. Throws Error when the animation has other shapes.
 std::string live_link_table(const ShapeAnimation& animation);
 
 }  // namespace risorius::blendshapes

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Physical quality measures of a blend shape, taken on its simulated pose and on the displaced mesh: change of volume,
-/// penetration, gap of closed eyes, symmetry.
+/// The certificate of a blend shape: physical measures of its quality. They are change of volume, penetration, the gap of closed
+/// eyes and symmetry, measured on the simulated pose and on the displaced mesh.
 #pragma once
 
 #include <optional>
@@ -13,24 +13,27 @@
 
 namespace risorius::blendshapes {
 
-/// Limits of a certificate.
+/// The largest accepted values of a certificate.
 struct ShapeLimits {
-    double volume_ratio = 0.02;     ///< change of the tissue's volume
-    double penetration_m = 0.3e-3;  ///< of lip in lip, and of skin in the eye
-    double lid_gap_m = 0.3e-3;      ///< gap that a blink leaves
-    double asymmetry_m = 0.2e-3;    ///< on a symmetric head
+    double volume_ratio = 0.02;  ///< magnitude of ShapeCertificate::volume_change
+    /// Penetration of one lip into the other, and of skin into an eye
+    double penetration_m = 0.3e-3;
+    double lid_gap_m = 0.3e-3;    ///< gap that a blink leaves
+    double asymmetry_m = 0.2e-3;  ///< on a symmetric head
 };
 
 /// Measured values of one shape.
 struct ShapeCertificate {
-    double volume_change = 0;  ///< of all tissue, ratio
-    double lip_depth_m = 0;    ///< largest penetration of lip in lip beyond that at rest
-    /// Penetration of tissue into bone and teeth, whose surfaces are estimates
+    double volume_change = 0;  ///< volume of all tissue over that at rest, minus 1
+    /// Largest penetration of one lip into the other, beyond that at rest
+    double lip_depth_m = 0;
+    /// Penetration of tissue into bone and teeth. It has no limit, because the surfaces of bone are estimates
     double bone_depth_m = 0;
-    double eye_depth_m = 0;             ///< penetration of skin into the eyes
-    std::optional<double> lid_gap_m;    ///< only for shapes that close the eye
-    std::optional<double> lip_gap_m;    ///< only for shapes that close the mouth over an open jaw
-    std::optional<double> asymmetry_m;  ///< of a shape, or of it and its namesake on the other side
+    double eye_depth_m = 0;           ///< penetration of skin into the eyes
+    std::optional<double> lid_gap_m;  ///< only for shapes that close the eye
+    std::optional<double> lip_gap_m;  ///< only for shapes that close the mouth over an open jaw
+    /// Of the shape, or between it and its namesake on the other side
+    std::optional<double> asymmetry_m;
     /// The asymmetry before mirroring. It is large when the lips have buckled to one side.
     std::optional<double> asymmetry_as_solved_m;
     blendshapes::Stretch stretch;  ///< of the simulated skin

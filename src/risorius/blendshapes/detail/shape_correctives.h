@@ -13,28 +13,30 @@ namespace risorius::blendshapes {
 
 /// Options of find_correctives().
 struct CorrectiveOptions {
-    /// Maximum number of simulated pairs: those that move the same skin farthest
+    /// Maximum number of pairs to simulate; the pairs that move the same skin farthest are chosen
     int pairs = 48;
-    /// Also simulate pairs with large errors at intermediate weights and on one side of the face
+    /// True: pairs with large errors are also simulated at intermediate weights and on one side of the face
     bool bent_pairs = false;
-    /// No corrective where the error of the sum is smaller everywhere
+    /// No corrective is made for a pose in which the error of the sum is smaller than this at every vertex
     double tolerance_m = 0.3e-3;
     double fade_m = 0.1e-3;  ///< smaller displacements of a corrective are removed
-    /// Limit for all correctives; small displacements are dropped to meet it
+    /// Limit of the bytes of all correctives in a file; small displacements are dropped to meet it
     long budget_bytes = 800'000;
-    /// Number of frames of a random FACS track that correctives are also fitted to
+    /// Number of frames of random_facs_track() to which correctives are also fitted
     int random_frames = 0;
 };
 
-/// Default options of a set of shapes. Action units are more numerous than ARKit's shapes, and occur in more combinations.
+/// Returns the default options for a set of shapes. They differ between sets, because there are more action units than shapes of
+/// ARKit, and they occur in more combinations.
 CorrectiveOptions correctives_of_set(const std::string& set);
 
-/// A simulated pair of shapes, or a shape at weight 1/2.
+/// A simulated pose for which a corrective was considered: a pair of shapes, or one shape at weight 1/2.
 struct TriedCorrective {
     std::string name;
-    double max_m = 0, rms_m = 0;  ///< error of the sum
-    bool at_rest = true;  ///< whether the simulation reached equilibrium; else the error is unknown
-    bool corrected = false;  ///< whether there are correctives for it
+    double max_m = 0, rms_m = 0;  ///< error of the sum of the shapes
+    /// Whether the simulation reached equilibrium; if not, the error is unknown
+    bool at_rest = true;
+    bool corrected = false;  ///< whether correctives were made for it
 };
 
 struct Correctives {
@@ -43,11 +45,11 @@ struct Correctives {
     long bytes = 0;
 };
 
-/// Frames with weights as they occur in use, without head rotation.
+/// Frames of a script: weights as they occur in use. The rotation of the head is left out.
 struct ScriptFrames {
     Eigen::MatrixXd weights = {};           ///< frames x shapes
-    std::vector<long> simulated = {};       ///< frames that are simulated
-    std::vector<track::Drive> drives = {};  ///< of the simulated frames
+    std::vector<long> simulated = {};       ///< numbers of the frames that are simulated
+    std::vector<track::Drive> drives = {};  ///< one per simulated frame
 };
 
 /// Simulates the pairs that move the same skin farthest, and those that occur together in the frames `played`. Correctives are
@@ -60,9 +62,10 @@ Correctives find_correctives(const scene::RigFiles& files, const MadeShapes& sha
 struct TrackError {
     std::string name;
     int frames = 0;
-    double rms_m = 0, max_m = 0;              ///< over all frames
-    double plain_rms_m = 0, plain_max_m = 0;  ///< without correctives
-    int worst = 0;                            ///< frame and vertex of max_m
+    double rms_m = 0, max_m = 0;                   ///< over all frames
+    double plain_rms_m = 0, plain_greatest_m = 0;  ///< the same without correctives
+    /// Index of the frame of max_m; worst_vertex is its vertex
+    int worst = 0;
     long worst_vertex = 0;
     std::vector<long> of_track = {};  ///< frame numbers within the track; empty: all frames
     long frame_of(int frame) const {
@@ -71,11 +74,12 @@ struct TrackError {
     double play_s = 0;  ///< CPU time of the blend shape rig per frame, s
 };
 
-/// The drive of a face that corresponds to weights of the shapes.
+/// Returns the drive of a face that corresponds to weights of the shapes.
 track::Drive drive_of_weights(const MadeShapes& shapes, const Eigen::VectorXd& weights,
                               const track::ChannelTable& channels);
 
-/// For each frame, compares the equilibrium pose of the drive with the blend shape rig at the given weights. Throws Interrupted.
+/// Compares the equilibrium of the face under the drive with the blend shape rig at the given weights, frame by frame. Throws
+/// Interrupted when the monitor asks to stop.
 TrackError track_error(const std::string& name, const blendshapes::BlendShapeRig& rig,
                        const ShapeSolver& solver, const std::vector<track::Drive>& drives,
                        const std::vector<Eigen::VectorXd>& weights,

@@ -16,22 +16,24 @@
 
 namespace risorius::blendshapes {
 
-/// A model with parts by role in the colours of the rig's appearance, and the shapes as morph targets. Correctives follow the
-/// shapes; the extras hold the rig, the set, and the drivers of the correctives under "correctives". `animation` may be null.
+/// Returns a glTF model of the head. Its parts (skin, eyes, ...) have the colours of the rig's appearance. The shapes are its
+/// morph targets, followed by the correctives. The glTF extras hold the rig, the set, and under "correctives" the drivers of the
+/// correctives. `animation` may be null.
 io::MorphModel morph_model(const scene::RigFiles& files, const rig::Head& head,
                            const MadeShapes& shapes, const std::string& set,
                            const blendshapes::BlendShapeRig& linear,
                            const ShapeAnimation* animation);
 
-/// Writes folder/cache.json and folder/cache.f32: every vertex in every frame of the animation, in mesh units, by the blend shape
-/// rig. Returns the names of the files.
+/// Writes folder/cache.json and folder/cache.f32: every vertex in every frame of the animation, in mesh units, computed with the
+/// blend shape rig. Returns the names of the files.
 std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const rig::Head& head,
                                             const blendshapes::BlendShapeRig& linear,
                                             const ShapeAnimation& animation,
                                             const std::filesystem::path& folder);
 
-/// Writes folder/shapes.json and folder/shapes.f32 (docs/formats/measured-shapes.md) with the activations that made each shape,
-/// in mesh units, with the vertices in the order of the mesh file. Returns the names of the files.
+/// Writes folder/shapes.json and folder/shapes.f32 (docs/formats/measured-shapes.md) which also hold the activations that made
+/// each shape. Displacements are in mesh units, and the vertices are in the order of the mesh file. Returns the names of the
+/// files.
 std::vector<std::string> write_shape_table(const scene::RigFiles& files, const rig::Head& head,
                                            const MadeShapes& shapes,
                                            const std::filesystem::path& folder);

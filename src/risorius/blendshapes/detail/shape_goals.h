@@ -31,9 +31,10 @@ struct ShapeGoal {
     std::string name;
     track::Drive drive;  ///< at weight 1
     Sides sides = Sides::kNone;
-    int partner = -1;    ///< index of the namesake
-    bool left = false;   ///< whether it is the left one
-    int on_top_of = -1;  ///< index of the shape it corrects, at the same weight
+    int partner = -1;   ///< index of the namesake; -1: none
+    bool left = false;  ///< whether this shape is the one on the left side
+    /// Index of the shape that this one corrects; it is used at the same weight; -1: none
+    int on_top_of = -1;
     /// Name of both halves together, such as "mouthSmile"; the shape's own name if it has no halves
     std::string whole;
 };
@@ -49,9 +50,9 @@ struct ShapeSet {
 
 const std::vector<std::string>& shape_set_names();
 
-/// Makes the goals of a set. `only`: names of shapes or wholes to keep; empty: all. Throws Error naming `place` for a set that is
-/// unknown or missing in the tables of the rig, and naming `only_from`, the source of `only`, for a name that the set does not
-/// have.
+/// Makes the goals of a set. `only`: the names of the shapes to make, or of wholes (ShapeGoal::whole); empty: all. Throws Error
+/// for a set that is unknown or missing in the tables of the rig; the message names `place`. Throws Error for a name in `only`
+/// that the set does not have; the message names `only_from`, the source of `only`.
 ShapeSet shape_set(const rig::RigDescription& rig, const std::string& set,
                    const std::vector<std::string>& only, const std::string& place,
                    const std::string& only_from = option_name("only"));

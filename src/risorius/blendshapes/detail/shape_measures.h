@@ -11,22 +11,24 @@
 
 namespace risorius::blendshapes {
 
-/// Principal stretches of triangles, ratios of length.
+/// Principal stretches of triangles: ratios of a length to the length at rest.
 struct Stretch {
     double max = 1, min = 1;
     double max_of_99 = 1;  ///< not exceeded by 99 % of the area
 };
 
-/// The stretch from `rest` to `moved`. Triangles with almost no area at rest are ignored.
+/// Returns the stretch from `rest` to `moved`, V x 3, m. Triangles with almost no area at rest are ignored.
 Stretch stretch_of(const Triangles& triangles, const Points& rest, const Points& moved);
 
-/// The mirror partners of the vertices of a symmetric head; empty for others.
+/// Returns the pairs of vertices that are mirror images of each other; empty for a head that is not symmetric.
 std::optional<geom::MirrorPairs> mirror_of(const Triangles& skin, const Points& rest);
 
-/// Largest distance, m, between one displacement and the mirror image of the other, over the skin vertices.
+/// Returns the largest distance, m, between the field `one` and the mirror image of the field `other`, over the vertices of the
+/// skin.
 double asymmetry_m(const geom::MirrorPairs& mirror, const Points& one, const Points& other);
 
-/// Replaces `field` at vertices with a partner: by the mirror image of `other`, or by the mean of itself and that.
+/// These two functions return a changed copy of `field`, displacements V x 3. At vertices with a mirror partner, the first one
+/// replaces `field` by the mirror image of `other`, the second one by the mean of `field` and that mirror image.
 Points with_mirror_image(const geom::MirrorPairs& mirror, const Points& field, const Points& other);
 Points mean_with_mirror_image(const geom::MirrorPairs& mirror, const Points& field,
                               const Points& other);

@@ -26,10 +26,10 @@ struct SolvedPose {
     int inverted_tets = 0;
 };
 
-/// How the solver goes from rest to the drive.
+/// How the solver goes from rest to the equilibrium under the drive.
 struct Approach {
     int steps = 1;      ///< number of equal load steps
-    bool again = true;  ///< if it does not converge, solve again in small steps
+    bool again = true;  ///< true: if the solve does not converge, it is repeated in small steps
 };
 
 /// Solves poses in parallel with one face per thread.
@@ -43,7 +43,7 @@ class ShapeSolver {
     std::vector<SolvedPose> solve(const std::vector<track::Drive>& drives,
                                   const ProgressMonitor& monitor, const Approach& how = {}) const;
 
-    /// A face to read what does not change; it is also used to solve poses.
+    /// Returns a face for reading properties that no pose changes. The face is also used to solve poses.
     const face::Face& face() const { return *faces_.front(); }
 
     /// A new face that the caller owns.

@@ -4,9 +4,11 @@
 /// shapes.
 ///
 ///   S   drive of every shape, one column each        E   displacement of the face per drive, linearized at rest
-///   minimise over w   1/2 |E (S w - d)|^2 + l1_weight sum w,   0 <= w <= 1
+///   minimise over w   1/2 |E (S w - d)|^2 + sum_s p_s w_s,   0 <= w <= 1
 ///
-/// A shape on top of another must not have a larger weight than that one.
+/// d is the drive to reproduce, w_s the weight of shape s, and p_s = 1e-3 |E S_s|^2 the l1 weight of shape s, where S_s is its
+/// column of S. The l1 weight makes most w_s zero. A shape on top of another (ShapeGoal::on_top_of) must not have a larger
+/// weight than that one.
 #pragma once
 
 #include <vector>
@@ -19,20 +21,21 @@ namespace risorius::blendshapes {
 
 class ShapeWeights {
   public:
-    /// Leaves `face` at rest. The drives of `goals` must be those of its rig. `linear` may be null; else it receives the
-    /// linearized displacement for the drive of each goal, V x 3, m.
+    /// Computes E with `face`, and leaves the face at rest. The drives of `goals` must be those of the rig of the face. If
+    /// `linear` is not null, it receives the linearized displacement under the drive of each goal, V x 3, m.
     ShapeWeights(face::Face& face, const track::ChannelTable& channels,
                  const std::vector<ShapeGoal>& goals, std::vector<Points>* linear = nullptr);
 
-    /// One weight per goal for a drive. Motion of the head is ignored.
+    /// Returns one weight per goal for a drive. Motion of the head is ignored.
     Eigen::VectorXd of(const track::Drive& drive) const;
 
   private:
     Eigen::VectorXd vector_of(const track::Drive& drive) const;
 
-    std::vector<std::size_t> kinematic_;  ///< kinematic channels that are used
-    std::vector<int> on_top_of_;          ///< of each shape, or -1
-    Eigen::MatrixXd by_drive_;            ///< S' G, G = E' E
+    /// The kinematic channels (those that no muscle drives) that are used
+    std::vector<std::size_t> kinematic_;
+    std::vector<int> on_top_of_;  ///< of each shape, or -1
+    Eigen::MatrixXd by_drive_;    ///< S' G, G = E' E
     solve::BoxQuadratic problem_;
 };
 

@@ -17,7 +17,8 @@ namespace risorius::blendshapes {
 /// Picture files of a set of shapes.
 struct ShapesPictures {
     static constexpr int kWidth_px = 396, kHeight_px = 440;
-    /// Per shape: view -> file. Views are "front", "three_quarter" and "moved" (displacement of the skin as colour).
+    /// One map per shape from the name of a view to its file. Views are "front", "three_quarter" and "moved" (colours show how
+    /// far the skin moves).
     std::vector<std::map<std::string, std::string>> shapes;
     std::string sheet;
     std::vector<std::string> files;
@@ -28,7 +29,7 @@ ShapesPictures draw_shapes(const ShapesReport& report, const scene::RigFiles& fi
                            const rig::Head& head, const std::filesystem::path& folder,
                            const ProgressMonitor& monitor);
 
-/// The complete page. `pictures` may be null; then it has only numbers.
+/// Returns the complete page. If `pictures` is null, it has only numbers.
 std::string shapes_page(const ShapesReport& report, const ShapesPictures* pictures);
 
 }  // namespace risorius::blendshapes

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A blend shape: displacements of some vertices of a mesh at weight 1. All other vertices stay.
+/// A blend shape: displacements of some vertices of a mesh at weight 1. All other vertices do not move.
 #pragma once
 
 #include <vector>
@@ -18,20 +18,23 @@ struct SparseShape {
     Points dense(long vertices) const;  ///< V x 3
 };
 
-/// The rows of `field` (V x 3) that are not zero.
+/// Returns the rows of `field` (V x 3, m) that are not zero.
 SparseShape sparse(const Points& field);
 
-/// Thresholds of fade_out(): displacements below `none_m` are removed and those above `all_m` are kept, with a smooth transition
-/// between them, because an abrupt end would show as an edge. Results below a fifth of `none_m` are also removed.
+/// Thresholds of fade_out(). Displacements below `none_m` are removed, and those above `all_m` are kept. Between them is a smooth
+/// transition, because an abrupt end would show as an edge. Displacements that are then below a fifth of `none_m` are also
+/// removed.
 struct Fade {
     double none_m = 5e-5, all_m = 1.5e-4;
 };
 void fade_out(Points& field, const Fade& fade = {});
 
-/// Weight of the left side (x > 0) at x: goes smoothly from 0 to 1 within `half_width_m` of the midplane.
+/// Returns the fraction of the left side (x > 0) at x. It goes smoothly from 0 at -half_width_m to 1 at half_width_m from the
+/// midplane.
 double left_fraction(double x_m, double half_width_m);
 
-/// Corrects two halves that were solved separately, near the midplane, so that left + right equals the whole.
+/// Corrects two halves of a shape that were solved separately, so that left + right equals `whole`. `half_width_m`: see
+/// left_fraction().
 void share_the_rest(const Points& rest, const Points& whole, double half_width_m, Points& left,
                     Points& right);
 

@@ -12,8 +12,8 @@
 
 namespace risorius::design {
 
-/// Evaluates `text`. `value_of` gives the values of names. Throws Error naming `place` when the formula is wrong or its value is
-/// not finite.
+/// Evaluates the formula `text`. `value_of` returns the value of a name. Throws Error when the formula is wrong or its value is
+/// not finite; the message begins with `place`.
 double arithmetic(const std::string& text, const std::string& place,
                   const std::function<double(const std::string& name)>& value_of);
 

@@ -41,7 +41,7 @@ struct Control {
     double late_s = 0.1;  ///< kLateSide: delay
     std::map<std::string, Json> when;  ///< only conditions with these values get the control
 
-    /// Whether the control only changes how the pictures of the condition are shown, not the face.
+    /// Returns whether the control changes only how the pictures of the condition are shown, and not the face.
     bool shows_otherwise() const;
     std::string name() const;  ///< the name in file names: "reversed", "withoutZygomaticusMajorL"
 };
@@ -49,10 +49,11 @@ struct Control {
 /// Reads a control: a name, or an object with "control" and its parameters. Throws Error.
 Control read_control(const JsonCursor& json);
 
-/// The script of a condition as changed by the control; unchanged when only the pictures change.
+/// Returns the script of a condition with the changes of the control. It is unchanged when the control changes only the pictures.
 Json controlled(Json script, const Control& control);
 
-/// For each frame of the control, the frame of the condition that it shows. `apex`: the frame that differs most from the first.
+/// Returns, for each frame of the control, the frame of the condition that it shows. `apex`: the frame that differs most from the
+/// first.
 std::vector<int> frame_order(const Control& control, int frames, int apex, unsigned seed);
 
 }  // namespace risorius::design

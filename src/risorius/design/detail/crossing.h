@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The conditions of a crossing that are used: all of them, a regular fraction, or a random choice; and how balanced they are.
+/// Selects conditions of a crossing (all combinations of the levels of some factors): all of them, a regular fraction, or a
+/// random choice. Measures how balanced the selection is.
 ///
 /// Levels are numbered from 0 in the order of the file. A relation keeps the conditions for which
 ///
@@ -32,10 +33,11 @@ struct Relation {
 std::vector<Relation> read_fraction(const JsonCursor& json,
                                     const std::vector<std::string>& factors);
 
-/// The numbers of the conditions that are used, ascending. Throws Error when there are too many or none.
+/// Returns the numbers of the conditions that are used, ascending. Throws Error when there are too many or none.
 std::vector<long> wanted_conditions(const ConditionSet& set, int seed);
 
-/// The row of the table, followed by the level of each factor, for a condition. The last factor changes fastest.
+/// Returns, for the number of a condition, the row of the table, followed by the level of each factor. The last factor changes
+/// fastest.
 std::vector<int> levels_of(const ConditionSet& set, long condition);
 
 /// How often levels, and pairs of levels, occur among the conditions that are used.
@@ -47,7 +49,7 @@ struct Balance {
     long used = 0, all = 0;  ///< numbers of conditions
     std::vector<LevelCount> factors;
     long pair_min = 0, pair_max = 0;  ///< the same for pairs of levels of two factors
-    /// For any choice of this many factors, all combinations of levels occur equally often.
+    /// The strength: for any choice of this many factors, all combinations of their levels occur equally often.
     int strength = 0;
 
     std::string text() const;

@@ -37,12 +37,12 @@ class Parameters {
     bool has(const std::string& name) const;
     const Json& at(const std::string& name) const;
     std::vector<std::string> names() const;  ///< ascending
-    /// The value as text for file names and tables: numbers in their shortest form, text unchanged.
+    /// Returns the value as text for file names and tables: numbers in their shortest form, text unchanged.
     std::string text(const std::string& name) const;
 
-    /// `value` with all names replaced by their values. Throws Error naming the position in its file.
+    /// Returns `value` with all names replaced by their values. Throws Error that names the position in its file.
     Json filled(const JsonCursor& value) const;
-    /// The same for text that contains ${name}.
+    /// Does the same for text that contains ${name}.
     std::string filled_text(const std::string& text, const std::string& place) const;
 
   private:
@@ -50,10 +50,10 @@ class Parameters {
     std::unique_ptr<Impl> impl_;
 };
 
-/// A number as JSON; integers are written without a decimal point.
+/// Returns a number as JSON; an integer is written without a decimal point.
 Json json_number(double value);
 
-/// Whether a name is valid in ${name}: letters, digits and _, starting with a letter.
+/// Returns whether a name is valid in ${name}: letters, digits and _, starting with a letter.
 bool is_parameter_name(const std::string& name);
 
 }  // namespace risorius::design

@@ -17,18 +17,18 @@
 
 namespace risorius::figures {
 
-/// Applies `change` to the body. Errors name the file and the place within the changed body.
+/// Returns the body with `change` applied. Error messages name the file and the field within the changed body.
 softbody::BodyDescription changed_body(const JsonCursor& body,
                                        const std::optional<JsonCursor>& change,
                                        const std::string& case_name);
 
-/// The name of a grid, such as "3x3x3".
+/// Returns the name of a grid, such as "3x3x3".
 std::string grid_name(const tissue::GridShape& grid);
 
-/// Reads a list of grids; each is three numbers, or one for all axes.
+/// Reads a list of grids. Each is three numbers of nodes, one per axis, or one number for all axes.
 std::vector<tissue::GridShape> read_grids(const JsonCursor& json);
 
-/// One body of the "runs" of a file: the body with the change of the run, at one of its grids.
+/// One body of the "runs" of a file: the body with the change of the run, on one of the grids of the run.
 struct BodyRun {
     std::string name, label;
     softbody::BodyDescription body;
@@ -39,7 +39,7 @@ struct BodyRun {
 /// "steps_s" may give a time step per grid, which replaces that of the integrator.
 std::vector<BodyRun> read_runs(const JsonCursor& experiment);
 
-/// The order in which runs start, most work first, and the estimated work of each, in arbitrary units.
+/// The estimated work of runs, and the order in which they start, most work first.
 struct Workload {
     std::vector<std::size_t> order;
     std::vector<double> work;
@@ -47,18 +47,20 @@ struct Workload {
 };
 Workload workload_of(const std::vector<BodyRun>& runs);
 
-/// The body at positions x for drawing. Where the material varies, shade goes from 0 at its softest node to 1 at its stiffest.
+/// Returns the body at positions x (N x 3, m) for drawing. If the material varies, Shape::shade goes from 0 at the softest node
+/// to 1 at the stiffest one.
 Shape shape_of(const softbody::BodyDescription& description, const softbody::SoftBody& body,
                const Points& x, const std::string& name, const std::string& caption);
 
-/// Edges of the rest shape of a body, as Shape::outline.
+/// Returns the edges of the rest shape of a body, in the format of Shape::outline.
 Points rest_outline(const softbody::SoftBody& body);
 
-/// Distances between the first and the last plane of nodes across one axis.
+/// How far apart the first and the last plane of nodes perpendicular to one axis are.
 struct Extent {
-    /// Distance of the centres of the planes along the rest direction of the axis, over that at rest
+    /// Distance of the centres of the two planes, measured along the direction of the axis at rest, over the distance at rest
     double length_ratio;
-    double drift_ratio;  ///< distance perpendicular to that direction, over the length at rest
+    /// Distance of the centres perpendicular to that direction, over the distance at rest
+    double drift_ratio;
 };
 Extent extent_along(const softbody::SoftBody& body, const Points& x, int axis);
 

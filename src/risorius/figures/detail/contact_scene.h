@@ -7,7 +7,8 @@
 ///    "contact": {"stiffness_pa_per_m": 1e5, "thickness_m": 1e-3, "friction": 0.5}}
 ///
 /// Obstacles are planes, spheres and capsules as in softbody/action_description.h, and tori, which are closed meshes. Every body
-/// may touch every obstacle. Closed bodies also touch each other.
+/// may touch every obstacle. Closed bodies also touch each other. Contact is tested at sample points on the surfaces of the
+/// bodies; "parts_per_side" is the number of parts into which the samples divide each side of a triangle (1: nodes only).
 #pragma once
 
 #include <memory>
@@ -25,12 +26,12 @@
 
 namespace risorius::figures {
 
-/// A rigid obstacle, and how it is drawn.
+/// A rigid obstacle, and the surface that is drawn for it.
 struct SceneObstacle {
     std::shared_ptr<const contact::Obstacle> obstacle;
     Points positions;  ///< vertices of the surface to draw; empty for a plane
     Triangles triangles;
-    bool is_plane = false;  ///< drawn as a square below the bodies, perpendicular to `normal`
+    bool is_plane = false;  ///< it is drawn as a square below the bodies, perpendicular to `normal`
     Vec3 point_m = Vec3::Zero(), normal = Vec3::UnitZ();
 };
 
@@ -46,7 +47,7 @@ struct ContactSceneDescription {
 /// Throws Error for a wrong description.
 ContactSceneDescription read_contact_scene(const JsonCursor& json);
 
-/// A scene that can be simulated and measured.
+/// A scene that can be simulated and measured. Measurements apply to its current state.
 class ContactScene {
   public:
     explicit ContactScene(const ContactSceneDescription& description);
@@ -60,9 +61,9 @@ class ContactScene {
     double weight_n(int body) const { return bodies_[static_cast<std::size_t>(body)].weight_n; }
     Vec3 velocity(int body) const;  ///< velocity of the centre of mass, m/s
 
-    Vec3 support_n() const;  ///< total force of the obstacles on the bodies, friction included
+    Vec3 support_n() const;  ///< total force of the obstacles on all bodies, friction included
     Vec3 load_on_first_n() const;  ///< force of the other bodies on body 0, friction included
-    double min_gap_m() const;      ///< minimum over all contacts; negative: penetration
+    double min_gap_m() const;      ///< smallest gap of all contacts; negative: penetration
     double max_speed_m_per_s() const { return state_.v.rowwise().norm().maxCoeff(); }
 
     Shape shape(const ContactSceneDescription& description) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Kind "equilibrium": bodies brought to equilibrium and drawn, as in figures 5 and 8 of the thesis.
+/// Kind "equilibrium": bodies brought to equilibrium and drawn, as in figures 5 and 8 of the thesis (see registry.h).
 ///
 ///   "body": {...}, "integrator": {...}, "duration_s": 10,
 ///   "cases": [{"name": "eta-3x3x3", "caption": "...", "change": {...}, "at": "equilibrium", "picture": "eta"}],
@@ -8,7 +8,8 @@
 ///
 /// "at": "rest" draws the undeformed shape. Consecutive cases with the same "picture" stand side by side in it. "length_along"
 /// selects the axis along which the length is measured. Measures per case: length_ratio/<name>, drift_ratio/<name>,
-/// volume_change_percent/<name>, max_move_m/<name>, force_ratio/<name> (residual force) and diverged/<name> (0 or 1).
+/// volume_change_percent/<name>, greatest_move_m/<name> (largest displacement of a node), force_ratio/<name> (residual force, see
+/// settle.h) and diverged/<name> (0 or 1). For length_ratio and drift_ratio see Extent in body_cases.h.
 #pragma once
 
 #include "risorius/figures/detail/experiment_kind.h"

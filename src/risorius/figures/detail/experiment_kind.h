@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A kind of experiment, as the registry sees it: a function from the experiment file to tables, charts, shapes and measurements.
-/// To add a kind, write such a function, list it in registry.cpp and add a folder to samples/figures.
+/// The interface of a kind of experiment: a function that reads the experiment file and returns tables, charts, shapes and
+/// measurements. To add a kind, write such a function, list it in registry.cpp and add a folder to samples/figures.
 #pragma once
 
 #include <functional>
@@ -24,8 +24,8 @@ struct Outcome {
 using RunExperiment = void (*)(const JsonCursor& experiment, const RunOptions& options,
                                Outcome& outcome);
 
-/// JsonCursor::allow_keys() with `own` and the keys that every experiment file may have (format, version, figure, kind, title,
-/// checks).
+/// Calls JsonCursor::allow_keys() with the keys `own` of a kind and those that every experiment file may have (format, version,
+/// figure, kind, title, checks).
 void allow_experiment_keys(const JsonCursor& experiment, std::vector<std::string_view> own);
 
 }  // namespace risorius::figures

@@ -15,7 +15,7 @@
 
 namespace risorius::figures {
 
-/// A table as CSV: comma separated, names quoted where needed, numbers with all digits.
+/// Returns a table as CSV: values are separated by commas, names are quoted where needed, and numbers have all their digits.
 std::string csv_of(const figures::Table& table);
 
 /// A picture file, and what its legend needs.
@@ -23,14 +23,17 @@ struct FigurePicture {
     std::string file;
     std::vector<std::string> captions;  ///< one per object, from left to right
     // For the legend
-    bool held = false;                                 ///< whether an object has fixed vertices
-    std::string outline_name = "";                     ///< that of the first object with an outline
-    std::array<std::string, 2> shade_ends = {"", ""};  ///< those of the first object with shades
+    bool held = false;  ///< whether an object has fixed vertices
+    /// Shape::outline_name of the first object with an outline
+    std::string outline_name = "";
+    /// Shape::shade_ends of the first object with shades
+    std::array<std::string, 2> shade_ends = {"", ""};
 };
 
 /// Names of the files of one figure.
 struct FigureFiles {
-    /// Tables by file name, such as "volume.csv"; charts by name, such as "volume" for volume.svg, .png, .gp and .data.csv
+    /// Names of tables and of charts. A table has the name of its file, such as "volume.csv". A chart has a name without ending,
+    /// such as "volume", for its files volume.svg, .png, .gp and .data.csv
     std::vector<std::string> tables, charts;
     std::vector<FigurePicture> pictures;
     std::vector<std::string> all;  ///< every file, sorted by name

@@ -27,10 +27,10 @@ struct Check {
     std::string name;  ///< "hang length at 3^3"
     std::string unit;
     double measured = 0;
-    double low = 0, high = 0;  ///< the accepted range; infinite ends allowed
+    double low = 0, high = 0;  ///< the accepted range; its ends may be infinite
     /// The published value in words or numbers; empty when nothing was published
     std::string published;
-    std::string note;  ///< why it differs, or what it means
+    std::string note;  ///< why the measured value differs from the published one, or what it means
     /// Where the range comes from: "published", "law" (a law or closed form), "demand" (a requirement on the computation), "own"
     /// (around the value first measured here); empty when the file does not say.
     std::string range_from = "";
@@ -39,7 +39,7 @@ struct Check {
     bool passes() const { return measured >= low && measured <= high; }
 };
 
-/// A deformed object as drawn in the thesis: a transparent surface, with its grid lines as wires.
+/// A deformed object, to be drawn as in the thesis (see registry.h): a transparent surface, with the lines of its grid as wires.
 struct Shape {
     std::string name;  ///< name of its picture
     std::string caption;
@@ -49,7 +49,7 @@ struct Shape {
     std::vector<int> fixed;                 ///< vertices drawn as balls
     /// Empty, or one colour value 0..1 per vertex (softness, strain)
     std::vector<double> shade = {};
-    /// Labels of 0 and 1, such as "softest" and "stiffest"
+    /// Labels of the shades 0 and 1, such as "softest" and "stiffest"
     std::array<std::string, 2> shade_ends = {};
     Points outline = {};  ///< 2S x 3, m: ends of lines that show the rest shape
     std::string outline_name = "outline at rest";
@@ -63,7 +63,7 @@ struct FigureResult {
     std::vector<plot::Chart> charts;
     std::vector<Shape> shapes;
     std::vector<Check> checks;
-    Json record = Json::object();  ///< parameters, steps and costs of the actual runs
+    Json record = Json::object();  ///< parameters, steps and costs of the runs that were made
 
     bool passes() const {
         for (const Check& check : checks)

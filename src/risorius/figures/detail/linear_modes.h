@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Small motions of a body about a state, and the linear stability of explicit methods for them.
+/// Small motions of a body about a state, and the linear stability of explicit time-stepping methods for them. d is the
+/// displacement from that state, M the mass matrix, K the stiffness, D the damping and h the time step.
 ///
 ///   M d'' = - K d - D d'     lambda   eigenvalues of [0 1; -M^-1 K  -M^-1 D], 1/s     z = h lambda
 ///   a method multiplies a mode by R(z) in every step
@@ -16,13 +17,15 @@
 
 namespace risorius::figures {
 
-/// Eigenvalues lambda about (x, v = 0), by central differences of the forces. Dense: for a few hundred free nodes at most.
+/// Returns the eigenvalues lambda, 1/s, about the positions x at velocity 0. K and D are central differences of the forces. The
+/// matrices are dense, so the body may have a few hundred free nodes at most.
 std::vector<std::complex<double>> small_motions(const softbody::SoftBody& body, const Points& x);
 
-/// Growth factor per step: the largest |root| of the method for one mode. Only explicit methods with a fixed step.
+/// Returns the factor |R(z)| by which the method makes a mode grow in every step. For a multistep method, it is the largest
+/// magnitude of the roots. `method`: an explicit one with a fixed step.
 double growth_per_step(solve::Method method, std::complex<double> lambda, double step_s);
 
-/// Whether no mode grows by more than `factor` over the duration.
+/// Returns whether every mode grows by no more than `factor` over the duration.
 bool stays_bounded(solve::Method method, const std::vector<std::complex<double>>& lambdas,
                    double step_s, double duration_s, double factor);
 

@@ -17,15 +17,15 @@ namespace risorius::figures {
 
 class Measurements {
   public:
-    /// Adds a measurement. `name` ends in its unit, followed by what was varied: "hang_length_ratio/3x3x3". A name may be added
-    /// only once.
+    /// Adds a measurement. `name` is a quantity that ends in its unit, followed by what was varied: "hang_length_ratio/3x3x3". A
+    /// name may be added only once.
     void add(const std::string& name, const std::string& unit, double value);
 
     /// Reads the "checks" of the experiment file, if any. Throws Error for a name that was not measured; the message lists the
     /// measured ones.
     std::vector<Check> check(const JsonCursor& experiment) const;
 
-    /// A table with one row per measurement.
+    /// Returns a table with one row per measurement.
     Table table() const;
 
   private:

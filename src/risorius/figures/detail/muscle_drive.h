@@ -30,10 +30,11 @@ struct Drive {
     std::optional<Pulses> pulses;
 };
 
-/// Reads a drive. Activation is computed up to the time `until_s`.
+/// Reads a drive. An activation that follows an excitation is computed up to the time `until_s`.
 Drive read_drive(const JsonCursor& json, double until_s);
 
-/// Reads a piecewise linear function of time, which is constant before its first and after its last knot.
+/// Reads a piecewise linear function of time. It is constant before its first and after its last knot. Throws Error for values
+/// outside `range`.
 std::function<double(double t_s)> read_course(const JsonCursor& json, Range range);
 
 }  // namespace risorius::figures

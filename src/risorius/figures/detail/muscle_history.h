@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Kind "muscle-history": the response of a muscle over time while it is activated and its plates move. Makes figure 11b of the
-/// thesis (quick release), and twitches that fuse to a tetanus.
+/// Kind "muscle-history": the response of a muscle over time while it is activated and its plates move. The plates are the rigid
+/// ends to which the muscle is attached. Makes figure 11b of the thesis (see registry.h), a quick release, and series of twitches
+/// that fuse to a tetanus.
 ///
 ///   "muscle": {...}, "phases": [{"until_s": 0.2, "step_s": 0.01}, {"until_s": 0.5, "step_s": 1e-3}],
 ///   "drive": {...}, "length": [[0, 1], ...],                     see muscle_drive.h; a run may replace both

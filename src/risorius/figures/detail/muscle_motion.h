@@ -5,8 +5,9 @@
 ///
 ///   m x'' = T - W      x   displacement of the load, m      T   tension, N       W   weight of the load, N       m   its mass
 ///
-/// Load and muscle are stepped in turn: the speed of the load moves the plate during the muscle's step, and the tension at the
-/// end of that step accelerates the load (symplectic Euler, stable while h < 2 sqrt(m / k) with the tendons' stiffness k).
+/// Load and muscle are stepped in turn. The speed of the load moves the plate during the muscle's step, and the tension at the
+/// end of that step accelerates the load. This is the symplectic Euler method. It is stable while the time step is below 2 sqrt(m
+/// / k), where k is the stiffness of the tendons.
 #pragma once
 
 #include <functional>
@@ -23,7 +24,8 @@ struct Phase {
     double until_s = 0, step_s = 0;
 };
 
-/// A weight that hangs on the insertion from `from_s` on. A stop prevents it from moving the plate farther out than at that time.
+/// A weight that hangs on the insertion from the time `from_s` on. A stop prevents the plate from moving farther out than it was
+/// at that time.
 struct Load {
     double force_n = 0;  ///< W             [0, inf)
     double mass_kg = 0;  ///< m             (0, inf)
@@ -49,9 +51,10 @@ struct MuscleMotion {
     bool converged = true, diverged = false;
 };
 
-/// What a muscle does.
+/// What is done to a muscle, and for how long.
 struct MotionPlan {
-    softbody::MuscleTask task;  ///< its length applies until the load hangs
+    /// Activation and length over time; the length applies until the load hangs on the muscle
+    softbody::MuscleTask task;
     std::optional<Load> load;
     std::vector<Phase> phases;
     /// Checked after every step; the motion ends when it is true.

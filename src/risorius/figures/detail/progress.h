@@ -14,7 +14,8 @@ class Progress {
   public:
     Progress(const RunOptions& options, double whole) : options_(options), whole_(whole) {}
 
-    /// Adds finished work and reports `what`. Throws Interrupted when the monitor asks to stop.
+    /// Adds finished work, in the unit of `whole`, and reports its fraction with the text `what`. Throws Interrupted when the
+    /// monitor asks to stop.
     void done(double work, const std::string& what) {
         const std::lock_guard<std::mutex> lock(mutex_);
         done_ += work;

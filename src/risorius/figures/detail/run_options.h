@@ -15,8 +15,8 @@
 
 namespace risorius::figures {
 
-/// Results of runs that more than one figure shows (9a and 9b). Thread-safe: the first thread that asks for a key runs it; others
-/// wait, and lend their threads meanwhile.
+/// Results of runs that more than one figure shows (9a and 9b). The class is thread-safe: the first thread that asks for a key
+/// computes the result. Others that ask for the same key wait, and return their threads to `spare` meanwhile.
 class SharedRuns {
   public:
     explicit SharedRuns(SpareThreads* spare = nullptr) : spare_(spare) {}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Searches for the largest stable time step of a method. As in the thesis, the steps of a table are tried from the largest down,
-/// and the first one at which the motion does not diverge counts.
+/// Searches for the largest stable time step of a method. As in the thesis (see registry.h), the steps of a table are tried from
+/// the largest down. The result is the first one at which the motion does not diverge.
 #pragma once
 
 #include <string>
@@ -20,13 +20,13 @@ std::vector<double> read_step_table(const JsonCursor& json);
 /// Reads names of explicit methods with a fixed step, at least one.
 std::vector<solve::Method> read_fixed_step_methods(const JsonCursor& json);
 
-/// The name of a method in figure 12 of the thesis, such as "RK4" or "A-B".
+/// Returns the name of a method in figure 12 of the thesis, such as "RK4" or "A-B".
 std::string label_of(solve::Method method);
 
 struct StepSearch {
     std::vector<double> steps_s;  ///< descending
     double duration_s = 0;
-    /// A motion has diverged when a node is this many body lengths away from its start
+    /// A motion has diverged when a node has moved by this many lengths of the body
     double diverged_at = 1e3;
 };
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Finds the strength of every muscle of a head with which activation 1 shortens the muscle by the published ratio.
+/// Finds the strength of every muscle of a head. With this strength, activation 1 shortens the muscle to the published length
+/// ratio.
 ///
-///   s   strength: force over the force from the cross-section, [0.1, 6]
+///   s   strength: force over the force that follows from the cross-section, [0.1, 6]
 ///   l   mean fibre length over rest length at activation 1
 ///
 /// The targets of l are "shortens_to" of the muscle bands.
@@ -21,14 +22,14 @@ namespace risorius::fitting {
 struct MuscleStrength {
     std::string muscle;
     double strength = 1;
-    double stretch = 1;  ///< l as reached
+    double stretch = 1;  ///< l that was reached
     double target_stretch = 1;
     bool at_limit = false;  ///< whether the target needs a strength outside the limits
     bool converged = true;  ///< whether the last trial reached equilibrium
 };
 
-/// Calibrates each muscle of the rig's bands separately, bundle or solid, one after the other, by the secant method. `face` keeps
-/// the strengths found. Throws Interrupted.
+/// Calibrates the muscles of the rig's bands one after the other, each alone, by the secant method. A muscle may be a bundle of
+/// fibres or a solid. `face` keeps the strengths that were found. Throws Interrupted when the monitor asks to stop.
 std::vector<MuscleStrength> calibrate_strength(face::Face& face, const rig::RigDescription& rig,
                                                const ProgressMonitor& monitor);
 

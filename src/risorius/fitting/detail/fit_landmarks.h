@@ -19,14 +19,15 @@ namespace risorius::fitting {
 /// expected and what was found.
 using LandmarkPositions = std::map<std::string, Vec3>;
 
-/// A list of ids for messages: "ch_l" "ch_r", in quotes.
+/// Returns a list of ids in quotes for messages: "ch_l" "ch_r".
 std::string quoted_list(const std::vector<std::string>& ids);
 
-/// Positions of the rig's landmarks. Throws Error when a required one is missing.
+/// Returns the positions of the rig's landmarks. Throws Error when a required one is missing.
 LandmarkPositions landmark_positions(const rig::RigDescription& rig, const geom::PolygonMesh& mesh,
                                      const std::filesystem::path& file);
 
-/// Metres per unit: m, dm, cm, mm, inch or foot, whichever makes the head adult-sized.
+/// Returns the metres per unit of the mesh. The unit is the one of m, dm, cm, mm, inch and foot in which the head has the size of
+/// an adult's.
 double unit_from_landmarks(const LandmarkPositions& landmarks, const rig::Atlas& atlas);
 
 /// Rejects files with left and right exchanged, with two or all landmarks in one place, or with closed eyes. These are checked
@@ -39,7 +40,7 @@ void check_sides(const LandmarkPositions& landmarks, const rig::Atlas& atlas,
 std::vector<std::string> check_places(const rig::Head& head, const LandmarkPositions& landmarks,
                                       const rig::Atlas& atlas, const std::filesystem::path& file);
 
-/// Missing landmarks, sorted by the number of muscle points that depend on them.
+/// Returns the missing landmarks, sorted by the number of muscle points that depend on them, largest first.
 std::vector<std::string> worth_giving(const rig::Head& head, const rig::Atlas& atlas);
 
 }  // namespace risorius::fitting

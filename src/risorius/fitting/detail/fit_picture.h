@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Picture of the result of a fit: given and estimated landmarks, lids, mouth and eyes from the front and the side, tissue
-/// thickness as colour, and the estimated bone.
+/// Draws a picture of the result of a fit: given and estimated landmarks, lids, mouth and eyes from the front and the side,
+/// tissue thickness as colour, and the estimated bone.
 #pragma once
 
 #include <vector>
@@ -14,10 +14,10 @@
 
 namespace risorius::fitting {
 
-/// The estimated bone below the tissue at rest: a point of bone for every point of the coarse skin, m.
+/// The estimated surface of the bone at rest. It has a point of bone for every point of the coarse skin. Positions are in m.
 struct BoneEstimate {
     Points skin, bone;                ///< N x 3
-    Triangles triangles;              ///< of both surfaces
+    Triangles triangles;              ///< the same for both surfaces
     std::vector<double> thickness_m;  ///< N
     /// N, fraction of the mandible's motion: 1 on the mandible, 0 on the skull
     std::vector<double> jaw_fraction;

@@ -7,10 +7,11 @@
 ///
 ///   u, g   displacements of the landmarks on this head and on the standard head, at atlas size, m
 ///   z      logarithms of factors: of the strength of each muscle, of turn and push of each lip, and of the pressure that puffs, |z| <= 1
-///   keep   weight of a change; the push of the lower lip has its own
+///   keep   weight of z^2; the push of the lower lip has a larger one
 ///
-/// Gauss-Newton over faces in equilibrium, du/dz = -H^-1 dg/dz at the skin nodes. Squares are reweighted so that the sum consists
-/// of lengths. Therefore an expression that this head cannot make does not distort the others.
+/// The method is Gauss-Newton with the face in equilibrium: du/dz = -H^-1 df/dz at the nodes of the skin, where H is the Hessian
+/// of the energy and f its gradient. The least squares are reweighted so that the sum consists of lengths, not of squares.
+/// Therefore an expression that this head cannot make does not distort the others.
 #pragma once
 
 #include <map>

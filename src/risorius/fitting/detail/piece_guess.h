@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Identifies the separate pieces of a mesh without groups by their position: eyes behind the lids, teeth and tongue behind the lips.
+/// Identifies the separate pieces of a mesh that has no groups, by their position: eyes behind the lids, teeth and tongue behind
+/// the lips.
 #pragma once
 
 #include <functional>

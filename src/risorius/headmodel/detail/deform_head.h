@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Deforms the average head into that of a person: handles of the parameters table move every part; the topology is unchanged.
+/// Deforms the average head into that of a person. The handles of the parameters table move every part; the topology does not
+/// change.
 ///
-/// With k(d / reach) Wendland's bell (1 - t)^4 (4 t + 1) about each handle, a point p of the left side goes to
+/// A handle is at the point `at` and acts within the distance `reach`. Its weight k at the distance d is Wendland's bell: (1 -
+/// t)^4 (4 t + 1) with t = d / reach. A point p of the left side moves to
 ///   p + sum over handles of  parameter * k * by                (move)
 ///                            parameter * k * by (p - at) / 100 (scale)
 /// The right side is the mirror image. Near each globe the displacement fades into that of the globe's centre, so that globes keep their
@@ -16,15 +18,15 @@
 
 namespace risorius::headmodel {
 
-/// Largest deviation of a measure from the mean of the sex, standard deviations.
+/// Limit of the deviation of a measure from the mean of the sex, in standard deviations.
 inline constexpr double kLargestDeviation = 2.5;
 
-/// The average identity gives exactly the average head.
+/// Returns the head of an identity. The average identity gives exactly the average head.
 HeadModel deform_head(const HeadModel& average, const DesignTables& tables,
                       const Identity& identity);
 
-/// The same, but all shape parameters are scaled down together until every measure is within kLargestDeviation; `identity` receives the
-/// values used.
+/// Does the same, but scales all shape parameters down together until every measure is within kLargestDeviation. `identity`
+/// receives the values that were used.
 HeadModel deform_within_spread(const HeadModel& average, const DesignTables& tables,
                                Identity& identity);
 

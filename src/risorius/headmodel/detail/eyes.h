@@ -19,7 +19,7 @@ struct Globe {
     double radius_at(double cosine) const;
 };
 
-/// Rings about the optical axis, pole in front; group name as given. `side` +1 left, -1 right.
+/// Returns an eyeball as a mesh of rings about the optical axis, with a pole in front. `side`: +1 left, -1 right.
 geom::PolygonMesh globe_mesh(const Globe& globe, double side, const std::string& group);
 
 }  // namespace risorius::headmodel

@@ -41,7 +41,7 @@ enum class Region {
     kShoulder,
     kLining
 };
-/// "scalp", "forehead" ..., in the order of the regions
+/// The names "scalp", "forehead" ..., in the order of the regions.
 const std::vector<std::string>& region_names();
 
 struct HalfMesh {
@@ -63,10 +63,10 @@ struct HalfMesh {
     /// Fills the rectangle bounded by `loop` with quads (left side down `rows`, bottom right `columns`, right side up, top back).
     void fill(const std::vector<int>& loop, int rows, int columns, Hold how, int in_group = 0);
 
-    /// Neighbours along edges; the midline sees both halves.
+    /// Returns the neighbours of each vertex along edges. A vertex of the midline has neighbours in both halves.
     std::vector<std::vector<int>> neighbours() const;
 
-    /// Outward unit normals at the vertices; x is 0 on the midline.
+    /// Returns the outward unit normals at the vertices; their x is 0 on the midline.
     std::vector<Vec3> normals() const;
 
     /// Removes ripples without shrinking (Taubin 1995). The second argument is the weight of each vertex, 0..1.
@@ -77,14 +77,16 @@ struct HalfMesh {
                Hold which);
 };
 
-/// Points of a curve through `places`, one for each vertex 0..count-1 (closed) or 0..count (open).
+/// Returns points of a curve through `places`: one for each vertex 0..count-1 of a closed curve, or 0..count of an open one.
 std::vector<Vec3> curve_points(const std::vector<std::pair<double, Vec3>>& through, int count,
                                bool closed);
 
-/// Both halves: the left one first in its own order, then the mirrored vertices, faces likewise; groups "skin", "mouth".
+/// Returns the mesh of both halves: first the vertices of the left one in their order, then the mirrored ones; the faces
+/// likewise. The groups are "skin" and "mouth".
 geom::PolygonMesh mirrored(const HalfMesh& half);
 
-/// Vertex of the mirrored mesh that mirrors `vertex`, by index.
+/// Returns, for each vertex of the half, the index of its mirror image in the mesh of mirrored(); a vertex of the midline is its
+/// own one.
 std::vector<int> mirror_map(const HalfMesh& half);
 
 }  // namespace risorius::headmodel

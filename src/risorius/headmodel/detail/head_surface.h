@@ -29,7 +29,7 @@ class HeadSurface {
 
     double rho(double phi, double s) const;
     Vec3 at(double phi, double s) const { return point_at(phi, s, rho(phi, s)); }
-    /// Projects along the ray from the axis segment; keeps the side of x.
+    /// Projects a point onto the surface along the ray from the axis segment. The sign of x does not change.
     Vec3 project(const Vec3& point) const;
 
   private:

@@ -11,7 +11,7 @@
 
 namespace risorius::headmodel {
 
-/// The name for headmodel::write_head().
+/// The name of the library, for headmodel::write_head().
 constexpr const char* kTextureLibrary = "head.mtl";
 
 /// Writes skin.png (with the wall of the mouth) of this width and height, and eyes.png, teeth.png, gums.png, tongue.png and lashes.png of
@@ -20,7 +20,8 @@ std::vector<std::string> write_head_textures(const render::Scene& scene, int sid
                                              const std::vector<double>& crown_height,
                                              const std::filesystem::path& folder);
 
-/// The library alone: one material for each group of the head; lashes have the colour of the hair (sRGB 0..1).
+/// Returns the text of the library alone, with one material for each group of the head. Lashes have the colour of the hair (sRGB
+/// 0..1).
 std::string texture_library(const Vec3& hair_tone);
 
 }  // namespace risorius::headmodel

@@ -21,9 +21,10 @@ inline constexpr Range kSexRange{-1, 1}, kAgeRange{20, 80}, kShapeRange{-2, 2}, 
 
 struct Identity {
     std::string name = "adult";
-    double sex = 0;                       ///< -1 the average woman, 1 the average man
-    double age = 40;                      ///< years
-    std::map<std::string, double> shape;  ///< parameter: standard deviations; absent: 0
+    double sex = 0;   ///< -1 the average woman, 1 the average man
+    double age = 40;  ///< years
+    /// Name of a parameter -> its value in standard deviations; a parameter that is absent is 0
+    std::map<std::string, double> shape;
     std::string skin = "fair", iris = "blue", hair = "brown";  ///< names of the tones table
     double freckles = 0.15;                                    ///< 0..1, as the others below
     double scalp_hair = 0.6;
@@ -32,27 +33,28 @@ struct Identity {
     double beard = 0;
 };
 
-/// Parameters of the table except sex and age, in its order.
+/// Returns the names of the parameters of the table except sex and age, in its order.
 std::vector<std::string> shape_parameters(const DesignTables& tables);
 
-/// Names that a tone may have; `part` is skin, iris or hair.
+/// Returns the names that the tone of a part may have. `part`: skin, iris or hair.
 std::vector<std::string> tone_names(const DesignTables& tables, const std::string& part);
 
-/// The place of a field in error messages: "ada.json:/age", or an option by option_name().
+/// A function that returns the place of a field for error messages: "ada.json:/age", or an option by option_name().
 using PlaceOf = std::function<std::string(const std::string& field)>;
 
 /// Throws Error on unknown parameters or tones and on values beyond the ranges above.
 void check_identity(const Identity& identity, const DesignTables& tables, const PlaceOf& place);
 
-/// Throws Error as above, naming the place in the file.
+/// Reads an identity. Throws Error as above; the message names the place in the file.
 Identity read_identity(const std::filesystem::path& file, const DesignTables& tables);
 Json identity_json(const Identity& identity);
 
-/// Files of models/identities, by name, sorted.
+/// Returns the sorted names of the files in models/identities.
 std::vector<std::string> named_identities();
 std::filesystem::path identity_file(const std::string& name);  ///< whether the file exists or not
 
-/// Drawn by the seed; the same on every machine. Shape parameters have standard deviation 1, as in adults, limited to 2.
+/// Draws an identity at random; the same seed gives the same identity on every machine. Shape parameters have standard deviation
+/// 1, as in adults, and are limited to magnitude 2.
 Identity random_identity(unsigned seed, const DesignTables& tables);
 
 }  // namespace risorius::headmodel

@@ -16,8 +16,8 @@ namespace risorius::headmodel {
 void lay_out(const HalfMesh& half, double crown_z, const std::vector<int>& upper,
              const std::vector<int>& lower, geom::PolygonMesh& mesh);
 
-/// Flattens a disc of quads as rigidly as possible (Liu et al. 2008): a place in mm for each vertex of the faces; vertices of `straight`
-/// have u = 0. Vertices without a face are at 0. Throws Error when the faces do not form a disc.
+/// Flattens a disc of quads as rigidly as possible (Liu et al. 2008). Returns a position in the plane, mm, for each vertex.
+/// Vertices of `straight` have u = 0. Vertices without a face are at 0. Throws Error when the faces do not form a disc.
 std::vector<Vec2> flatten(const std::vector<Vec3>& points,
                           const std::vector<std::array<int, 4>>& faces,
                           const std::vector<bool>& straight);

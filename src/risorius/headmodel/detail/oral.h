@@ -12,7 +12,8 @@ namespace risorius::headmodel {
 enum class Arch { kUpper, kLower };
 
 geom::PolygonMesh teeth(Arch arch, const std::string& group);
-/// For each vertex of teeth(): 0 at the neck, which gum hides up to about 0.2, 1 at the edge of a front tooth, 0.8 on a chewing surface.
+/// Returns the relative height on the crown for each vertex of teeth(): 0 at the neck, 1 at the edge of a front tooth, 0.8 on a
+/// chewing surface. The gum hides the crown up to about 0.2.
 std::vector<double> crown_heights();
 geom::PolygonMesh gums(Arch arch, const std::string& group);
 geom::PolygonMesh tongue(const std::string& group);

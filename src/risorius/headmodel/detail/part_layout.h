@@ -16,21 +16,25 @@ struct Disc {
     double radius = 0.49;
     double turn = 1;  ///< -1 where angles run clockwise, seen from outside
 
-    /// `share`: fraction of the way from the pole in the middle to the other end.
+    /// Returns a position in the square. `fraction`: how far it is from the pole in the middle (0) to the other end (1). `angle`:
+    /// about the pole, rad.
     Vec2 at(double fraction, double angle) const;
 };
 
-/// Both eyes at the same place: one picture for both. The front pole is in the middle.
+/// The layout of an eye, with the front pole in the middle. Both eyes have the same layout, so one picture serves both.
 Disc eye_disc(double side);
-/// Crown 0..13 of an arch, edge in the middle: the left ones from the front backwards, then the right ones; the upper arch above.
+/// The layout of a tooth crown, with its edge in the middle. Crowns 0..13 of an arch are the left ones from the front backwards,
+/// then the right ones. The upper arch lies above the lower one.
 Disc crown_disc(bool upper, int crown);
-/// Tip in the middle, the back of the tongue above it.
+/// The layout of the tongue: the tip is in the middle, and the back of the tongue lies above it.
 Disc tongue_disc();
 
-/// Place on the gums' strip: `along` from the right end to the left, `around` from the root over the side of the lips, 0..1 both.
+/// Returns a position on the strip of the gums. `along`: from the right end to the left, 0..1. `around`: from the root over the
+/// side of the lips, 0..1.
 Vec2 gum_place(bool upper, double along, double around);
 
-/// Place on a ribbon of lashes: `along` the lid from where it begins, `out` from the roots to the tips, 0..1 both.
+/// Returns a position on a ribbon of lashes. `along`: along the lid from where the ribbon begins, 0..1. `out`: from the roots to
+/// the tips, 0..1.
 Vec2 lash_place(bool upper, double along, double out);
 
 }  // namespace risorius::headmodel

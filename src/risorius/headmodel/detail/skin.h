@@ -23,7 +23,7 @@ struct Skin {
     std::map<std::string, int> landmark;  ///< those that are vertices by construction
 };
 
-/// Loop of grid vertices round a block of cells, counter-clockwise seen from outside, from its top left corner.
+/// Returns the loop of grid vertices round a block of cells, counter-clockwise seen from outside, from its top left corner.
 std::vector<int> block_loop(const std::vector<std::vector<int>>& grid, int row0, int row1,
                             int column0, int column1);
 
@@ -38,7 +38,7 @@ void add_ear(Skin& skin, const std::vector<int>& block, const DesignTables& tabl
 /// Names the landmarks on free skin and moves the skin smoothly onto them.
 void fit_landmarks(Skin& skin, const DesignTables& tables);
 
-/// Moves a point of the skin out of the globe by at least `gap`, mm.
+/// Moves a point of the skin outwards, if necessary, so that its distance from the globe is at least `gap`, mm.
 Vec3 clear_of_globe(const Vec3& point, const Globe& globe, double gap);
 
 Skin make_skin(const DesignTables& tables, const HeadSurface& head, const Globe& globe);

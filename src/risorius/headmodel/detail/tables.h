@@ -29,15 +29,15 @@ struct LoopPoint {
 struct ReliefPoint {
     Vec2 place;        ///< back, up in the ear frame, mm
     double height_mm;  ///< outwards; below 0: a pit
-    double width_mm;   ///< aside, where 1/e of it is left
-    double lean_mm;    ///< backwards, where it overhangs
+    double width_mm;   ///< distance aside at which 1/e of the height is left
+    double lean_mm;    ///< shift backwards of a ridge that overhangs
 };
 
 /// A point of a line along which the skin is raised, or carved where its height is below 0.
 struct SkinReliefPoint {
     Vec3 at;           ///< head frame, mm
     double height_mm;  ///< along the normal
-    double width_mm;   ///< where 1/e of the height is left
+    double width_mm;   ///< distance at which 1/e of the height is left
 };
 
 /// A section of the cavity behind the lips, mm: half an oval bent back round the dental arch.
@@ -73,7 +73,7 @@ struct Handle {
     std::string parameter;
     enum class Kind { kMove, kScale, kLid } kind;
     Vec3 at;
-    double reach_mm;  ///< infinite: everywhere
+    double reach_mm;  ///< reach of the effect; infinite: it acts everywhere
     Vec3 by;          ///< mm, or percent for kScale, per unit of the parameter
 };
 

@@ -11,10 +11,10 @@
 
 namespace risorius::inverse {
 
-/// The complete page. `pictures` may be null; then it has only numbers.
+/// Returns the complete page. If `pictures` is null, it has only numbers.
 std::string evaluation_page(const Evaluation& evaluation, const EvaluationPictures* pictures);
 
-/// A table for other programs with one row per expression: tab-separated, lengths in mm.
+/// Returns a table for other programs, separated by tabs, with one row per expression and lengths in mm.
 std::string evaluation_table(const Evaluation& evaluation);
 
 }  // namespace risorius::inverse

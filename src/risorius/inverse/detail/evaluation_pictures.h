@@ -25,16 +25,17 @@ inline constexpr double kErrorScale_mm = 6;
 /// Picture files of an evaluation.
 struct EvaluationPictures {
     static constexpr int kWidth_px = 396, kHeight_px = 440;  ///< of a single picture
-    /// Content -> file. The contents are "neutral", "table", "fitted", "measured", "table_error", "fitted_error".
+    /// A map from the content of a picture to its file. The contents are "neutral", "table", "fitted", "measured", "table_error",
+    /// "fitted_error".
     using Kinds = std::map<std::string, std::string>;
-    /// One map per expression: camera -> files
+    /// One map per expression, from the name of a camera to its files
     std::vector<std::map<std::string, Kinds>> expressions;
     std::map<std::string, std::string> sheets;  ///< camera -> file
 
     std::vector<std::string> files() const;
 };
 
-/// Draws the pictures and writes them below `folder`; file names are relative to it. `area`: of each vertex, m2, 0 where nothing
+/// Draws the pictures and writes them below `folder`; file names are relative to it. `area`: of each vertex, m^2; 0 where nothing
 /// is compared. Throws Interrupted.
 EvaluationPictures draw_evaluation(const Evaluation& evaluation, const rig::RigDescription& rig,
                                    const geom::PolygonMesh& mesh, const rig::Head& head,

@@ -27,7 +27,7 @@ struct FitTarget {
 FitTarget given_shapes(const std::filesystem::path& file, const std::vector<std::string>& only,
                        const scene::RigFiles& files, const face::Face& face);
 
-/// Reads copies of the rig's mesh with displaced vertices. Throws Error.
+/// Reads mesh files, copies of the rig's mesh with displaced vertices. Throws Error for a wrong file.
 FitTarget given_meshes(const std::vector<std::filesystem::path>& meshes,
                        const scene::RigFiles& files, const face::Face& face);
 

@@ -21,9 +21,9 @@ struct ObjMaterials {
     std::vector<int> of_face;  ///< F; index into names; -1 before the first "usemtl"
 };
 
-/// Understands v, vt, f, g, o and usemtl, relative indices and continued lines, and ignores other lines. A face belongs to the
-/// last "g" or "o" before it ("default" before the first). In a file without either, it belongs to its material. Throws Error;
-/// messages begin with `name`, and count lines and indices from 1 as the file does.
+/// Reads an OBJ. It understands v, vt, f, g, o and usemtl, relative indices and continued lines, and ignores other lines. A face
+/// belongs to the last "g" or "o" before it ("default" before the first). In a file without either, it belongs to its material.
+/// Throws Error; messages begin with `name`, and count lines and indices from 1 as the file does.
 geom::PolygonMesh read_obj(const std::string& text, const std::string& name,
                            ObjMaterials* materials = nullptr);
 

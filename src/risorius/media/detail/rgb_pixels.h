@@ -8,7 +8,7 @@
 
 namespace risorius::media::detail {
 
-/// True for a pixel format of 8-bit RGB frames.
+/// Returns whether a pixel format is one of 8-bit RGB frames.
 bool is_rgb_of_bytes(AVPixelFormat format);
 void put_rgb_pixels(const Image& image, AVFrame& frame);
 Image rgb_pixels_of(const AVFrame& frame);  ///< opaque when the frame has no alpha

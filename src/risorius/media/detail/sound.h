@@ -26,10 +26,10 @@ struct Sound {
 
 /// Throws Error when the file is missing, has no sound, or is shorter than its header says.
 Sound read_sound(const std::filesystem::path& file);
-/// The same, for WAV and FLAC only.
+/// Does the same, but accepts only WAV and FLAC.
 Sound read_recording(const std::filesystem::path& file);
 
-/// Resamples without a delay.
+/// Converts sound to another sampling rate without a delay.
 Sound resampled(const Sound& sound, int rate_hz);
 
 }  // namespace risorius::media

@@ -16,13 +16,14 @@ namespace risorius::media::detail {
 
 class SoundCoder {
   public:
-    /// `offset_samples`: from the first frame to the first sample, at the recording's own rate.
+    /// `offset_samples`: number of samples from the first frame to the first sample, at the recording's own rate.
     SoundCoder(std::string name, Form form, const Sound& recording, std::int64_t offset_samples,
                bool headers_apart);
 
-    /// Sends sound up to a sample to the encoder. Returns true while packets must be received first.
+    /// Sends the sound up to a given sample to the encoder. Returns true as long as packets must be received before it takes
+    /// more.
     bool send_until(std::int64_t sample);
-    /// The same with the last block, which may have any length.
+    /// Does the same with the last block, which may have any length.
     void send_end(std::int64_t sample);
     bool receive(AVPacket* packet);
     const AVCodecContext& codec() const { return *codec_; }

@@ -30,10 +30,12 @@ class TemporaryFile {
     bool kept_ = false;
 };
 
-/// Writes the bytes under a temporary name and renames. Throws RunError and then keeps the old file.
+/// Writes the bytes to a file under a temporary name and then renames it. When this fails, it throws RunError and the old file is
+/// unchanged.
 void write_whole(const std::filesystem::path& file, const void* bytes, std::size_t count);
 
-/// The bytes of a file. Throws Error when it is missing, is a folder or cannot be read; `expected` is part of the message.
+/// Returns the bytes of a file. Throws Error when it is missing, is a folder or cannot be read; `expected` is part of the
+/// message.
 std::vector<unsigned char> read_whole(const std::filesystem::path& file, const char* expected);
 
 }  // namespace risorius::media::detail

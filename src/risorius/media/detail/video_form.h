@@ -25,10 +25,10 @@ enum class Coding {
     kVp9Rgb,   ///< lossless
 };
 
-/// For every form except a folder.
+/// Returns the coding of pictures. `form` must not be kFolder.
 Coding coding_of(Form form, const VideoOptions& options, bool alpha);
 
-/// True when colour has half the resolution of brightness.
+/// Returns whether colour has half the resolution of brightness.
 bool halves_colour(Coding coding, const VideoOptions& options);
 
 /// Throws Error for options that the form does not support.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The ends of an axis and the numbers along it.
+/// Computes the ends of an axis and the numbers along it.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct AxisLayout {
 /// cannot show, for a range whose ends are in the wrong order, and when there is neither a finite value nor a range.
 AxisLayout lay_out(const Axis& axis, const std::vector<double>& values, const std::string& place);
 
-/// "3^3" -> "3³": powers are raised; line breaks and other control characters become spaces.
+/// Returns a label in which powers are raised, "3³" for "3^3". Line breaks and other control characters become spaces.
 std::string typeset(const std::string& text);
 
 }  // namespace risorius::plot

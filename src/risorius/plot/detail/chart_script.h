@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A chart as the two texts that gnuplot draws it from.
+/// Makes the two texts from which gnuplot draws a chart.
 #pragma once
 
 #include <string>
@@ -10,10 +10,11 @@
 
 namespace risorius::plot {
 
-/// "series,x,y": one block per series, with two empty lines between blocks. Readers of CSV skip the empty lines.
+/// Returns the data: lines "series,x,y" in one block per series, with two empty lines between blocks. Readers of CSV skip the
+/// empty lines.
 std::string chart_data(const Chart& chart);
 
-/// A script that draws NAME.data.csv into NAME.svg and NAME.png, in the folder in which it runs.
+/// Returns a script that draws NAME.data.csv into NAME.svg and NAME.png, in the folder in which it runs.
 std::string chart_script(const Chart& chart, const AxisLayout& x, const AxisLayout& y);
 
 }  // namespace risorius::plot

@@ -9,7 +9,7 @@
 
 namespace risorius::render {
 
-/// Linear light, sRGB primaries, 0..1. `activation` is clamped to 0..1.
+/// Returns the colour in linear light with sRGB primaries, 0..1. `activation` is clamped to 0..1.
 Vec3 activation_colour(double activation);
 
 }  // namespace risorius::render

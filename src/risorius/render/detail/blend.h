@@ -10,7 +10,8 @@
 
 namespace risorius::render {
 
-/// Blends a colour over a pixel of RGBA bytes with straight (not premultiplied) alpha. `srgb` and `cover` are 0..1.
+/// Blends a colour over a pixel of RGBA bytes with straight (not premultiplied) alpha. `srgb`: the colour, 0..1. `cover`: its
+/// opacity, 0..1.
 inline void blend(std::uint8_t* pixel, const Vec3& srgb, double cover) {
     const double under = pixel[3] / 255.0 * (1 - cover), alpha = cover + under;
     if (alpha <= 0) return;
@@ -20,7 +21,7 @@ inline void blend(std::uint8_t* pixel, const Vec3& srgb, double cover) {
     pixel[3] = static_cast<std::uint8_t>(std::lround(255 * alpha));
 }
 
-/// The sRGB transfer function of IEC 61966-2-1.
+/// Encodes linear light as sRGB, both 0..1, by the transfer function of IEC 61966-2-1.
 inline Vec3 srgb_of_linear(const Vec3& linear) {
     return linear.unaryExpr(
         [](double l) { return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055; });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Skull, mandible and teeth under transparent skin. The nearest layer of skin is drawn over the bones: clear where it faces the
-/// camera and pale at its edges.
+/// Draws skull, mandible and teeth under transparent skin. The surface of skin that is nearest to the camera is drawn over the
+/// bones: clear where it faces the camera and pale where it is seen at a grazing angle.
 #pragma once
 
 #include "risorius/render/detail/gl_context.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Clears only those cells of a picture that are drawn in samples, because clearing memory takes as long as drawing.
+/// Clears only those cells of a picture that are drawn in samples (picture_cells.h), because clearing all memory would take as
+/// long as drawing.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The colour scale in the upper left corner of a picture: its name, and a bar between two numbers.
+/// The colour scale in the upper left corner of a picture. It shows its name and a bar of colours between two numbers.
 #pragma once
 
 #include <functional>
@@ -13,14 +13,14 @@ namespace risorius::render {
 
 struct ColourScale {
     std::string name, from, to;
-    /// Linear light as displayed; 0 and 1 are the ends of the bar
+    /// Colour in linear light, as displayed, at a fraction of the length of the bar, 0..1
     std::function<Vec3(double fraction)> colour;
 };
 
 /// Draws the scale. Its size follows the smaller side of the picture; text that would be too small to read is omitted.
 void draw_colour_scale(const ColourScale& scale, const Background& background, Image& image);
 
-/// The scale of muscle activation, with muscles in uniform light under the skin of the face.
+/// Returns the scale of muscle activation. Its colours are those of muscles in uniform light, seen through the skin of this face.
 ColourScale activation_scale(const Appearance& appearance);
 ColourScale values_scale(const SkinValues& values);
 

@@ -16,7 +16,9 @@ class DeepResolve {
   public:
     explicit DeepResolve(const Background& background);
 
-    /// Like Resolve, for linear samples. Writes image.deep, and its nearest bytes into image.rgba.
+    /// Averages the samples of one tile as Resolve does. `samples`: RGBA in linear light, premultiplied by alpha, rows from the
+    /// bottom, `supersampling` times as wide and high as the tile. Writes sRGB to image.deep, and the same rounded to bytes to
+    /// image.rgba.
     void resolve(const std::vector<float>& samples, int supersampling, const Tile& tile,
                  Image& image) const;
 

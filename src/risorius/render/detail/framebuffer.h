@@ -23,7 +23,7 @@ constexpr int kMaxSupersampling = 4;
 /// Throws Error naming the field for a value outside [min, max].
 void check_range(const char* field, int value, int min, int max);
 
-/// Depth, and colour: sRGB with alpha, or linear floats. The context must be current.
+/// A framebuffer with depth and colour. The colour is RGBA: sRGB bytes, or floats in linear light. The context must be current.
 class Framebuffer {
   public:
     enum class Colour { kSrgbBytes, kLinearFloats };
@@ -45,20 +45,21 @@ class TiledPicture {
   public:
     TiledPicture(int width_px, int height_px, int supersampling);
 
-    /// From now on pictures also get 16 bits per channel over this background, and the framebuffer holds linear floats.
+    /// Makes later calls of read_back() also write 16 bits per channel over this background. The framebuffer must hold linear
+    /// floats.
     void keep_deep(const Background& background) { deep_.emplace(background); }
 
     std::vector<Tile> tiles() const;
     int tile_width_samples() const { return tile_width_ * supersampling_; }
     int tile_height_samples() const { return tile_height_ * supersampling_; }
 
-    /// Matrix that makes the tile's part of clip space fill the viewport.
+    /// Returns the matrix that scales and shifts clip space so that the part of the tile fills the viewport.
     Eigen::Matrix4d crop(const Tile& tile) const;
     void set_viewport(const Tile& tile) const;
-    /// Reads the drawn tile into its place in the image.
+    /// Reads the samples of the drawn tile, averages them per pixel, and writes the pixels to the place of the tile in the image.
     void read_back(const Tile& tile, const Resolve& resolve, Image& image);
-    /// The same for cells that need samples. The other cells are taken from the skin layer, which has `shaded` x `shaded` places
-    /// per pixel.
+    /// Does the same only for the cells that need samples. The other cells are filled from `layer`, the skin layer with `shaded`
+    /// x `shaded` places per pixel (picture_cells.h), or with background.
     void read_back(const Tile& tile, const Resolve& resolve, const PictureCells& cells,
                    const std::vector<std::uint8_t>& layer, int shaded, Image& image);
 

@@ -93,7 +93,7 @@ namespace risorius::render {
     X(PFNGLVIEWPORTPROC, glViewport)
 // clang-format on
 
-// Null until gl_backend() has been called. All threads share them.
+// The pointers are null until gl_backend() has been called. All threads share them.
 #define RISORIUS_GL_POINTER(type, name) extern type name;
 RISORIUS_GL_FUNCTIONS(RISORIUS_GL_POINTER)
 #undef RISORIUS_GL_POINTER

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The differences between the libraries that provide OpenGL: creation of contexts without a window, and lookup of functions.
+/// An interface to a library that provides OpenGL. It covers what differs between the libraries: the creation of contexts without
+/// a window, and the lookup of functions.
 #pragma once
 
 #include <memory>
@@ -21,15 +22,15 @@ class GlBackend {
     virtual Function function(const char* name) const = 0;
 };
 
-/// The back end of the process, made at the first call. Throws RunError when there is none, and Error for a wrong value of
-/// RISORIUS_GL. Not thread-safe.
+/// Returns the back end of the process, which is made at the first call. Throws RunError when no back end is available, and Error
+/// for a wrong value of the environment variable RISORIUS_GL. The function is not thread-safe.
 GlBackend& gl_backend();
 
 std::unique_ptr<GlBackend> make_osmesa_backend();
 /// Returns null where EGL is missing, or where no EGL device is a graphics processor and one is required.
 std::unique_ptr<GlBackend> make_egl_backend(bool needs_graphics_processor);
 
-/// Records the name of the renderer, after the first context has been made.
+/// Records the name of the renderer for gl_in_use(). It is called after the first context has been made.
 void note_renderer(const std::string& renderer);
 
 }  // namespace risorius::render

@@ -11,17 +11,17 @@ namespace risorius::render {
 
 class GlContext {
   public:
-    /// `threads`: llvmpipe workers; the first context of a process decides for all later ones. Textures and buffers are shared
-    /// with `shared`, in both directions. Throws RunError when no such context is available.
+    /// `threads`: number of worker threads of llvmpipe; the first context of a process decides for all later ones. The new
+    /// context and `shared` share their textures and buffers. Throws RunError when no such context is available.
     explicit GlContext(int threads, const GlContext* shared = nullptr);
     ~GlContext();
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
-    /// Binds the context to the calling thread for a scope. Drawing goes to framebuffer objects. Only one context of the process
-    /// is current at a time: when a texture or buffer is touched, llvmpipe of Mesa 22.3 reads the pending draws of all contexts
-    /// without a lock while they free them (about one video in a hundred ended with a segmentation fault). Other threads get
-    /// their turn in finish_drawing().
+    /// Binds the context to the calling thread as long as this object exists. Drawing goes to framebuffer objects. Only one
+    /// context of the process is current at a time: when a texture or buffer is touched, llvmpipe of Mesa 22.3 reads the pending
+    /// draws of all contexts without a lock while they free them (about one video in a hundred ended with a segmentation fault).
+    /// Other threads get their turn in finish_drawing().
     class Current {
       public:
         explicit Current(GlContext& context);
@@ -34,10 +34,11 @@ class GlContext {
     void* context_ = nullptr;  ///< of gl_backend()
 };
 
-/// Waits until all drawing of the current context is done. Meanwhile other threads may submit theirs.
+/// Waits until all drawing of the current context is done. Meanwhile other threads may submit drawing of their own contexts.
 void finish_drawing();
 
-/// A compiled and linked program. Throws RunError with the message of the compiler. An empty fragment source draws depth only.
+/// A compiled and linked program of a vertex and a fragment shader. An empty fragment source draws depth only. The constructor
+/// throws RunError with the message of the compiler.
 class GlProgram {
   public:
     GlProgram(const std::string& name, const std::string& vertex, const std::string& fragment);

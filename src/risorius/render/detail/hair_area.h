@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The areas of the skin that hair covers (brows and scalp), from the same plan that paints them.
+/// The areas of the skin that brows and hair of the scalp cover. They follow from the same SkinPlan that paints them.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace risorius::render {
 
 class HairArea {
   public:
-    /// There is no hair when the skin has a texture of its own.
+    /// The areas are empty when the skin has a texture of its own.
     explicit HairArea(const Scene& scene);
 
     /// The kind of hair at a point of the skin at rest, or none.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Positions on a ribbon of eyelashes, from which single hairs are cut without texture or alpha.
+/// Positions on a ribbon of eyelashes. The shader cuts single hairs out of the ribbon by these positions, without texture or
+/// alpha.
 #pragma once
 
 #include <vector>

@@ -2,8 +2,9 @@
 /// \file
 /// The lighting of a picture: lamps, surroundings and exposure.
 ///
-/// Exposure and white balance depend only on the light: a grey card of 18 % reflectance at the face, turned to the camera, has a
-/// linear value of 0.18 in every picture. Below kStraightTo the picture is linear in light.
+/// Exposure and white balance depend only on the light: a grey card of 18 % reflectance that stands at the face and is turned to
+/// the camera has a linear value of 0.18 in every picture. Below kStraightTo, pixel values (sRGB decoded) are proportional to
+/// light.
 #pragma once
 
 #include <optional>
@@ -12,26 +13,28 @@
 
 namespace risorius::render {
 
-/// Radiance from all directions as a latitude-longitude map. Rows start straight up. Columns start straight behind and run over
-/// the subject's right to the front (the middle) and the left. Only ratios count.
+/// Radiance from all directions as a latitude-longitude map. The first row is straight up and the last one straight down. Columns
+/// start straight behind the head and run over the subject's right to the front (the middle column) and on to the left. The unit
+/// is arbitrary, because the exposure depends on the light.
 struct Surroundings {
     int width = 0, height = 0;
-    std::vector<float> rgb;  ///< 3 per cell, linear
+    std::vector<float> rgb;  ///< 3 per cell (red, green, blue), linear, row by row
     bool operator==(const Surroundings&) const = default;
 };
 
 struct LightOptions {
     std::string preset = "studio";             ///< one of light_names(); moves with the camera
     std::optional<Surroundings> surroundings;  ///< replaces the preset; fixed to the head frame
-    double turn_deg = 0;  ///< rotation of all light about the vertical, towards the subject's left
+    /// Rotation of all light about the vertical axis, positive towards the subject's left
+    double turn_deg = 0;
     double exposure_ev = 0;  ///< added to the exposure of the grey card, stops, -10..10
     bool operator==(const LightOptions&) const = default;
 };
 
-/// Linear light above this fraction of white is compressed, so that highlights keep their shape.
+/// Linear light above this fraction of white is compressed, so that highlights keep their shading.
 constexpr double kStraightTo = 0.5;
 
-/// "studio", "soft", "dramatic", "outdoor", "even"
+/// The names of the presets: "studio", "soft", "dramatic", "outdoor", "even".
 const std::vector<std::string>& light_names();
 
 }  // namespace risorius::render

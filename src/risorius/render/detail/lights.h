@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The light of a view: key lamp with shadow, fill, rim light from behind, and surroundings, exposed for a grey card.
+/// The light of a view: the key lamp (main light) with its shadow, the fill lamp that brightens shadows, the rim lamp behind the
+/// head, and the surroundings. All are scaled by the exposure for a grey card.
 #pragma once
 
 #include "risorius/render/detail/camera.h"
@@ -20,10 +21,11 @@ struct LightPlan {
     Vec3 forward = Vec3::UnitZ();  ///< normal of the grey card
 };
 
-/// Throws Error for an unknown preset and for numbers out of range. Presets move with the camera, whose azimuth is given.
+/// Returns the light for the options. Presets move with the camera, whose azimuth is given. Throws Error for an unknown preset
+/// and for numbers out of range.
 LightPlan plan_light(const LightOptions& options, double camera_azimuth_rad);
 
-/// Factor per channel that gives a white card the value 1.
+/// Returns the factor per channel that gives a white card at the face the value 1, times 2^exposure_ev.
 Vec3 exposure_for(const LightPlan& plan, double exposure_ev);
 
 class Lights {
@@ -37,11 +39,11 @@ class Lights {
 
     /// Constants of light and shadow, the same in all frames, for programs whose source begins with frame_chunk().
     ShaderConstants constants() const;
-    /// All uniforms except clip_from_world.
+    /// Returns the uniforms of a frame, all but clip_from_world.
     FrameUniforms uniforms(const MouthGap& gap) const;
 
-    /// Draws the shadow map of the bound scene and binds the textures that lights read. With a clip space, only shadows that are
-    /// visible in it are drawn.
+    /// Draws the shadow map of the bound scene and binds the textures that the shaders read for light. If `clip_from_world` is
+    /// not null, only triangles whose shadows can be visible in that clip space are drawn.
     void draw_shadow(SceneBuffers& buffers, const Eigen::Matrix4f* clip_from_world) const;
 
   private:

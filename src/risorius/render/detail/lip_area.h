@@ -13,7 +13,7 @@ namespace risorius::render {
 
 class LipArea {
   public:
-    /// Empty when too many landmarks of the border are missing.
+    /// The area is empty when too many landmarks of the border are missing.
     explicit LipArea(const std::map<std::string, Vec3>& landmarks);
 
     bool contains(const Vec3& rest) const;

@@ -18,17 +18,18 @@ namespace risorius::render {
 
 class Materials {
   public:
-    /// How the skin is shaded: by itself, as a veil over the muscles, or into a layer for lookup.
+    /// How the skin is shaded: opaque, as a translucent veil over the muscles, or into the skin layer, which is looked up later
+    /// (skin_layer.h).
     enum class Skin { kPlain, kVeil, kLayer };
     /// `draft`: skin is lit at its vertices, unless it is a veil. `shaded_m`: distance between the shaded places of the skin.
-    /// `constants`: of Lights.
+    /// `constants`: those of Lights.
     Materials(const Scene& scene, const SceneBuffers& buffers, Skin skin, bool draft,
               double shaded_m, const ShaderConstants& constants, const MuscleLayer* muscles);
 
     /// Makes the batch's program current, with blending for the cornea.
     void use(const Batch& batch, const Pose& pose, const PosedMarks& marks) const;
     void done() const;
-    /// Sets the colours of a material in another program, and for an eye its measures at rest.
+    /// Sets the uniforms of `program` for the colours of a material, and for an eye those for its radii at rest.
     void tell_colours(const GlProgram& program, Material material, int eye) const;
     /// Draws the skin, with wrinkles where it has them.
     void draw_skin(const Batch& batch, const SceneBuffers& buffers) const;
@@ -53,7 +54,7 @@ class Materials {
                  const PosedMarks& marks) const;
 
     std::map<Kind, std::unique_ptr<GlProgram>> programs_;
-    std::unique_ptr<GlProgram> folded_skin_;     ///< when the scene has folds
+    std::unique_ptr<GlProgram> folded_skin_;     ///< null when the scene has no folds (scene.h)
     mutable std::unique_ptr<GlProgram> values_;  ///< made when values are shown for the first time
     std::array<Eye, 2> eyes_;
     std::array<bool, 2> separate_cornea_{false, false};

@@ -22,7 +22,7 @@ class MovingSurface {
     /// Attaches the buffer to the attributes kPosition and kNormal of the bound vertex array.
     void attach() const;
 
-    /// Uploads positions, m, one row per vertex. Throws Error naming `place` for another number of rows.
+    /// Uploads positions, m, one row per vertex. Throws Error for another number of rows; the message begins with `place`.
     void upload(const Points& positions, const std::string& place);
 
   private:

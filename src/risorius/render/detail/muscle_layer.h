@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Renders the muscles alone, colour and depth, so that they can show through the skin.
+/// Draws the muscles alone into textures of colour and depth. The shader of the skin reads them, so that the muscles show through
+/// the skin.
 #pragma once
 
 #include <vector>
@@ -25,11 +26,11 @@ class MuscleLayer {
     /// Throws Error when the pose and the scene have different muscles.
     void upload(const Pose& pose);
 
-    /// Draws the part of the picture that the uniforms of the frame and the viewport select, and binds the layer to its texture
-    /// units.
+    /// Draws the part of the picture that the uniforms of the frame and the viewport select. Binds the textures of colour and
+    /// depth to kMuscleColourUnit and kMuscleDepthUnit.
     void draw() const;
 
-    /// Sets what a program that reads the layer needs to know of the camera.
+    /// Sets the uniforms of the camera in a program that reads the layer.
     void set_uniform(const GlProgram& program) const;
 
   private:
@@ -38,8 +39,9 @@ class MuscleLayer {
     std::vector<int> muscle_of_vertex_;
     MovingSurface surface_;
     std::vector<float> colours_;
-    Vec2 distance_of_depth_;  ///< distance along the view direction = y / (2 depth - 1 + x)
-    Vec3 right_;              ///< unit, right axis of the camera
+    /// (x, y) such that the distance along the view direction, m, is y / (2 depth - 1 + x)
+    Vec2 distance_of_depth_;
+    Vec3 right_;  ///< unit, right axis of the camera
     /// Samples of the picture across one metre at a distance of one metre
     double samples_per_slope_;
     GlProgram program_;

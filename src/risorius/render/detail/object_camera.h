@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// One camera per object of a row. All have the same direction, distance and scale; each is centred on its own object.
+/// Cameras for a row of objects, one for each object. All have the same direction, distance and scale; each is centred on its own
+/// object.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +18,9 @@ struct ObjectAxes {
 ObjectAxes object_axes(double azimuth_deg, double elevation_deg);
 
 struct ObjectCamera {
-    Vec3 position;                    ///< m
-    Eigen::Matrix4d clip_from_world;  ///< its depth is 0 everywhere, so nothing is clipped
+    Vec3 position;  ///< m
+    /// It gives every point the depth 0, so that nothing is clipped
+    Eigen::Matrix4d clip_from_world;
 };
 
 struct ObjectRow {

@@ -15,18 +15,18 @@
 
 namespace risorius::render {
 
-/// Tells the fragment shader how to draw a vertex.
+/// How the fragment shader draws a triangle; all its vertices have the same kind.
 enum class PartKind : std::uint8_t { kSurface = 0, kWire = 1, kBall = 2 };
 
 struct PartVertex {
     float position[3];  ///< m, world
     float normal[3];    ///< in camera axes; for surfaces
     float colour[3];    ///< linear
-    float place[2];     ///< position on a ball, -1..1
+    float place[2];     ///< position on the square that shows a ball, -1..1 in x and y
     float kind;
 };
 
-/// Throws Error naming `place` for vertex indices out of range and positions that are not finite.
+/// Throws Error for vertex indices out of range and positions that are not finite; the message begins with `place`.
 void check_object(const Object& object, const std::string& place);
 
 std::vector<PartVertex> object_parts(const Object& object, const ObjectRow& row,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The mesh's own textures: baked into the paint map of the skin, and sampled on eyes, teeth and tongue.
+/// The textures that come with a mesh. That of the skin is painted into the paint map (skin_paint.h); those of eyes, teeth and
+/// tongue are sampled in every frame.
 #pragma once
 
 #include <map>

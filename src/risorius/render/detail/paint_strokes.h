@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Hairs and freckles as thin quads on the paint map of the skin.
+/// Hairs and freckles as thin quads on the paint map of the skin (skin_paint.h).
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,16 @@
 
 namespace risorius::render {
 
-/// The root of a brow hair on the map, and its direction: upright at the nose, then increasingly along the brow. Hairs of the
-/// upper rows lean down, those of the lower rows up.
+/// A brow hair on the map. Hairs near the nose stand upright; farther out they lie more and more along the brow. Hairs of the
+/// upper rows lean down, and those of the lower rows lean up.
 struct BrowHair {
-    Vec2 root, step;  ///< step: a part of the way along the hair
+    Vec2 root, step;  ///< on the map, 0..1; step: 0.4 of the way from root to tip
     double length_m = 0, density = 1;
 };
 BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& paint_centre,
                         RandomSequence& random);
 
-/// Cells of the map that the ears cover.
+/// The part of the map that the ears cover, on a grid of 256 x 256 cells.
 class EarMask {
   public:
     EarMask(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
@@ -34,20 +34,23 @@ class EarMask {
     std::vector<bool> covered_;
 };
 
-/// Whether p lies within the red of the lips or half a millimetre from it.
+/// Returns whether p (rest, m), seen from the front, lies on the red of the lips or less than 1.2 mm from a point of their
+/// outline.
 bool inside_lips(const SkinPlan& plan, const Vec3& p);
 
 struct StrokeVertex {
     float place[2];  ///< on the map
-    float local[2];  ///< along the stroke from root 0 to tip 1, across -1..1
-    float rgba[4];   ///< square root of linear colour, opacity
+    /// Position in the stroke: along it from 0 at the root to 1 at the tip, across it -1..1
+    float local[2];
+    float rgba[4];  ///< square root of the linear colour (3 numbers), and opacity
 };
 
-/// Six vertices per stroke. `skin`: the painted triangles; no hair is drawn over ears.
+/// Returns the strokes of the head, six vertices each. No hair is drawn over ears. `centre`: see paint_centre(). `skin`: the
+/// painted triangles, three vertex indices each.
 std::vector<StrokeVertex> plan_strokes(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
                                        const std::vector<unsigned>& skin);
 
-/// The area inside the outline of the lips in their tone, as a triangle fan.
+/// Returns the area inside the outline of the lips, coloured in the tone of the lips, as the triangles of a fan.
 std::vector<StrokeVertex> plan_lip_ground(const Scene& scene, const SkinPlan& plan,
                                           const Vec3& centre);
 

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Classifies the cells of a tile. Where a cell shows only smooth skin, the skin layer already is the picture; where nothing was
-/// drawn, the background is. The other cells need samples of their own.
+/// Classifies the cells of a tile, so that as few of them as possible are drawn in samples.
+///
+/// Terms: a sample is a point of a pixel where visibility is tested; a pixel has `samples` x `samples` of them. The skin layer
+/// (skin_layer.h) is a picture of the skin alone, shaded at `shaded` x `shaded` points per pixel, which are called places. A cell
+/// is a square of kSide_px x kSide_px pixels.
+///
+/// There are three kinds of cells. A cell that shows only smooth skin is copied from the skin layer. A cell in which nothing is
+/// drawn is filled with background. All other cells are drawn in samples.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +16,8 @@
 
 namespace risorius::render {
 
-/// A bounding box in clip space after division by w, -1..1 from the lower left corner.
+/// A bounding box in clip space after division by w: -1 at the left and lower border of the picture, 1 at the right and upper
+/// border.
 struct ClipBox {
     float left = 1e9F, right = -1e9F, low = 1e9F, high = -1e9F;
     bool behind = false;  ///< part of it lies behind the camera, so its position is unknown
@@ -43,18 +50,18 @@ class PictureCells {
     /// Starts a tile; all cells are empty.
     void begin(int width_px, int height_px);
 
-    /// Skin that has been shaded lies here.
+    /// Records that skin of the skin layer lies in the box.
     void touch(const ClipBox& box) { add(box, kTouched); }
-    /// Something that is drawn in samples lies here.
+    /// Records that something in the box must be drawn in samples.
     void mark(const ClipBox& box) { add(box, kTouched | kSampled); }
     void mark_all() { std::fill(cells_.begin(), cells_.end(), kTouched | kSampled); }
 
     /// Bounding box of all touched cells.
     PixelBox touched() const;
 
-    /// Marks cells for sampling: of the touched cells, only those that are covered by skin without a step in distance need no
-    /// samples. `rgba`: the skin layer, `shaded` x `shaded` places per pixel, rows from the bottom, with the distance in alpha
-    /// (see shader_lookup.cpp).
+    /// Marks the touched cells that need samples: all but those that skin covers completely and without a step in distance.
+    /// `rgba`: the skin layer, `shaded` x `shaded` places per pixel, rows from the bottom, with the distance in alpha (see
+    /// shader_lookup.cpp).
     void find_steps(const std::vector<std::uint8_t>& rgba, int shaded);
 
     /// Whether the box overlaps a cell that needs samples.

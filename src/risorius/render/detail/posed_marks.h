@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Landmarks that move with the skin, and the openings of mouth and eyes, on which the light inside them depends.
+/// Landmarks that move with the skin, and from them the openings of mouth and eyes. The light inside the mouth and on the eyes
+/// depends on these openings.
 #pragma once
 
 #include <array>
@@ -28,20 +29,23 @@ class PosedMarks {
   public:
     PosedMarks(const Scene& scene);
 
-    /// Lips that are closed have no gap, even if they stand apart in the rest pose.
+    /// Returns the gap between the lips. A gap that is no larger than that of the rest pose counts as closed and has no area.
     MouthGap mouth_gap(const Pose& pose) const;
     LidMarks lids(const Pose& pose, int eye) const;
-    /// Closure of the lids relative to rest, 0..1.
+    /// Returns the closure of the lids: 0 as open as at rest, 1 closed.
     double lids_closed(const Pose& pose, int eye) const;
 
-    /// 1 for a skin vertex inside the closed mouth, 0 outside, found from its position and from how little sky it sees.
+    /// Returns 1 for each skin vertex inside the closed mouth, and 0 for those outside. It is inside if its position is near the
+    /// mouth and it sees little of the sky (occlusion.h).
     std::vector<float> inside_mouth(const Scene& scene, const std::vector<float>& sky_seen) const;
 
   private:
-    int stos_ = -1, stoi_ = -1, ch_l_ = -1, ch_r_ = -1;  ///< nearest skin vertices
+    /// Skin vertices nearest to the landmarks of these names
+    int stos_ = -1, stoi_ = -1, ch_l_ = -1, ch_r_ = -1;
     double rest_gap_m_ = 0.0;
-    std::array<double, 2> rest_opening_{};  ///< height over width of the eyes
-    Vec3 mouth_rest_ = Vec3::Zero();        ///< fallback without lip landmarks
+    /// At rest: height over width of the opening between the lids
+    std::array<double, 2> rest_opening_{};
+    Vec3 mouth_rest_ = Vec3::Zero();  ///< fallback without lip landmarks
     std::array<std::array<int, 4>, 2> lids_{{{-1, -1, -1, -1}, {-1, -1, -1, -1}}};
 };
 

@@ -17,15 +17,15 @@ struct Tile {
     int x, y, width, height;
 };
 
-/// Mean of pictures of one size, in linear light.
+/// Returns the mean of pictures of equal size, computed in linear light.
 Image mean_of(const std::vector<Image>& pictures);
 
 class Resolve {
   public:
     explicit Resolve(const Background& background);
 
-    /// Writes one tile. `samples`: rows from the bottom, sRGB colour premultiplied by alpha (in linear light), `supersampling`
-    /// times as wide and high as the tile.
+    /// Writes one tile. `samples`: RGBA bytes, rows from the bottom, `supersampling` times as wide and high as the tile. Their
+    /// colour was multiplied by alpha in linear light and then encoded as sRGB.
     void operator()(const std::vector<std::uint8_t>& samples, int supersampling, const Tile& tile,
                     Image& image) const;
 
@@ -33,10 +33,10 @@ class Resolve {
     /// apart.
     void row(const std::uint8_t* samples, std::size_t supersampling, std::size_t sample_row,
              std::size_t count, std::uint8_t* out) const;
-    /// The same for opaque samples; their alpha is ignored.
+    /// Does the same for opaque samples; their alpha is ignored.
     void opaque_row(const std::uint8_t* samples, std::size_t supersampling, std::size_t sample_row,
                     std::size_t count, std::uint8_t* out) const;
-    /// A row without samples: only background.
+    /// Writes `count` pixels of background.
     void empty_row(std::size_t count, std::uint8_t* out) const;
 
   private:
@@ -44,7 +44,7 @@ class Resolve {
     std::array<std::uint8_t, 3> background_;
     std::array<std::uint8_t, 4> nothing_{};          ///< a pixel without samples
     std::array<std::uint16_t, 256> linear_of_byte_;  ///< sRGB byte -> linear, 65535 = 1
-    std::vector<std::uint8_t> byte_of_linear_;       ///< and back, nearest
+    std::vector<std::uint8_t> byte_of_linear_;       ///< linear 0..65535 -> nearest sRGB byte
 };
 
 }  // namespace risorius::render

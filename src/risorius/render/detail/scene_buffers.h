@@ -28,12 +28,12 @@ class SceneBuffers {
     SceneBuffers& operator=(const SceneBuffers&) = delete;
 
     void bind() const { glBindVertexArray(array_); }
-    /// Uploads positions. `fold_depth`: no rows when nothing is folded; ignored when the scene has no folds.
+    /// Uploads positions, V x 3, m, world. `fold_depth`: see Pose; it is ignored when the scene has no folds.
     void upload(const Points& positions, const Points& fold_depth = {});
     void set_colours(const std::vector<float>& rgb);  ///< linear, 3 per vertex
     void set_occlusion(const std::vector<float>& sky_seen, const std::vector<float>& inside_mouth);
 
-    /// These select triangles for the current positions, see triangle_choice.h.
+    /// These functions select triangles for the current positions. They are those of the same name in triangle_choice.h.
     void choose(const Eigen::Matrix4f& clip_from_world, bool whole);
     void choose_casters(const Eigen::Matrix4f& light_from_world,
                         const Eigen::Matrix4f* clip_from_world);
@@ -52,9 +52,9 @@ class SceneBuffers {
     int skin_index_count() const { return triangles_.skin_index_count(); }
     const std::vector<float>& normals() const { return normals_; }
 
-    /// Skin triangles outside the mouth that lie on the paint map in one piece.
+    /// Returns the skin triangles outside the mouth that the border of the paint map does not tear, three vertex indices each.
     std::vector<unsigned> paintable_triangles(const std::vector<float>& inside_mouth) const;
-    /// Numbers in the vertex array of vertices of the scene.
+    /// Converts vertex indices of the scene to indices in the vertex array.
     std::vector<unsigned> elements(const std::vector<unsigned>& vertices) const;
 
   private:
@@ -65,13 +65,13 @@ class SceneBuffers {
 
     SmoothNormals smooth_;
     SceneTriangles triangles_;
-    /// Number of each scene vertex in the vertex array, in drawing order
+    /// Index in the vertex array of each scene vertex; the vertex array has the order of drawing
     std::vector<unsigned> number_;
     std::vector<float> paint_;
     std::vector<LashPlace> lashes_;
     std::vector<float> curvature_, pores_, occlusion_;
     std::vector<float> positions_, normals_, moving_, fold_depth_;
-    std::vector<std::uint8_t> wrinkled_;  ///< per vertex, in the current pose
+    std::vector<std::uint8_t> wrinkled_;  ///< per vertex: 1 if it has wrinkles in the current pose
     TriangleChoice choice_{triangles_, positions_, wrinkled_};
     std::array<GLuint, kPurposes> chosen_elements_{0, 0};
     GLuint array_ = 0, moving_buffer_ = 0, fixed_buffer_ = 0, occlusion_buffer_ = 0,

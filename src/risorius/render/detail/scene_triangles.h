@@ -18,11 +18,12 @@ namespace risorius::render {
 struct Batch {
     Material material;
     int eye;
-    /// Index of a texture of the scene, or -1; the texture of the skin is part of its paint map
+    /// Index of a texture of the scene, or -1; also -1 for skin, whose texture is part of the paint map
     int texture;
     int first_index;
     int index_count;
-    bool cull_back;  ///< wound counter-clockwise from outside, so back faces are hidden
+    /// The triangles are counter-clockwise seen from outside, so their back sides need not be drawn
+    bool cull_back;
 };
 
 /// The purpose of a selection of triangles.
@@ -39,7 +40,8 @@ class SceneTriangles {
     /// Vertex indices of the scene, three per triangle.
     const std::vector<unsigned>& indices() const { return indices_; }
     int skin_index_count() const;
-    /// Corners of a batch's triangles, three each. Returns the simplified ones if there are any for the purpose, unless `whole`.
+    /// Returns the vertex indices of the triangles of a batch, three each. Simplified triangles are returned if there are any for
+    /// the purpose and `whole` is false.
     std::span<const unsigned> corners_of(const Batch& batch, Purpose purpose, bool whole) const;
     /// The simplified skin; empty: not simplified.
     const std::vector<unsigned>& coarse_skin(Purpose purpose) const {

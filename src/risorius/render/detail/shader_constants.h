@@ -32,7 +32,7 @@ class ShaderConstants {
     std::map<std::string, std::string> value_of_declaration_;  ///< "vec3 albedo" to "vec3(...)"
 };
 
-/// A GLSL literal such as "vec4(1.0, 0.5, ...)", with as many digits as a float needs.
+/// Returns a GLSL literal such as "vec4(1.0, 0.5, ...)", with as many digits as a float needs.
 std::string glsl(const std::string& type, std::span<const float> numbers);
 
 }  // namespace risorius::render

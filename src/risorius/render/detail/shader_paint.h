@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Programs that paint the skin map once: the skin, and strokes over it.
+/// Sources of the shader programs that paint the paint map (skin_paint.h): the skin, and strokes over it.
 #pragma once
 
 #include <string>

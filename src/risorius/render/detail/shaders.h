@@ -10,23 +10,25 @@ namespace risorius::render {
 /// Uniforms of each frame for all programs: the std140 block `Frame` of shader_lighting.cpp, field for field.
 struct FrameUniforms {
     float clip_from_world[16];
-    float mouth_centre[4];  ///< xyz m of the gap between the lips, w its area in m^2
-    float mouth_axis[4];    ///< half axis of that gap, m
-    // The same in all frames of a view; programs may have them as constants instead.
-    float shadow_from_world[16];  ///< to texture coordinates and depth, 0..1
-    float shadow_places[4];       ///< x: texels per side of the map; y: m per texel
-    float camera[4];              ///< xyz m
-    float key_direction[4];       ///< towards the lamp
-    /// Light of a white card that faces the lamp: irradiance over pi, exposed
+    float mouth_centre[4];  ///< xyz: centre of the gap between the lips, m; w: its area, m^2
+    float mouth_axis[4];    ///< xyz: vector from that centre to the left corner of the mouth, m
+    // The following are the same in all frames of a view; programs may have them as constants instead.
+    /// From world, m, to texture coordinates and depth of the shadow map, 0..1
+    float shadow_from_world[16];
+    float shadow_places[4];  ///< x: texels per side of the map; y: m per texel
+    float camera[4];         ///< xyz: position, m, world
+    float key_direction[4];  ///< xyz: unit vector towards the lamp
+    /// rgb: radiance of a white card that faces the lamp (irradiance over pi) times the exposure
     float key_card[4];
     float fill_direction[4];
     float fill_card[4];
     float rim_direction[4];
     float rim_card[4];
-    float irradiance[9][4];  ///< of the surroundings, see Irradiance; exposed
+    /// rgb: coefficients of the surroundings, see Irradiance, times the exposure
+    float irradiance[9][4];
 };
 
-/// Texture units and vertex attributes
+/// Texture units.
 enum TextureUnit {
     kShadowUnit = 0,
     kPaintUnit = 1,
@@ -52,10 +54,12 @@ enum VertexAttribute {
     kColour = 7  ///< colour of a value on the skin
 };
 
-/// Fraction of the skin's own light where the view is perpendicular to a muscle.
+/// Fraction of the skin in the colour of a pixel where the line of sight is perpendicular to the muscle below; the rest is the
+/// muscle.
 constexpr double kSkinOverMuscles = 0.16;
 
-/// For every material. `key`: with the light of the key lamp, for draft_skin_shader().
+/// The vertex shader of every material. `folds`: passes the wrinkles on. `key`: computes the light of the key lamp at the
+/// vertices, for draft_skin_shader().
 std::string surface_vertex_shader(bool folds = false, bool key = false);
 std::string depth_vertex_shader();  ///< shadow map and occlusion
 /// Details of the skin that are finer than the mesh.
@@ -70,7 +74,7 @@ std::string clear_vertex_shader();
 std::string clear_shader();
 std::string lookup_vertex_shader();
 std::string lookup_shader();  ///< looks up stored skin
-/// Skin over the muscles, which shine through it
+/// Translucent skin over the muscles, which are read from MuscleLayer
 std::string veil_shader(const SkinRelief& relief);
 std::string values_vertex_shader();
 std::string values_shader();  ///< skin that shows a quantity
@@ -87,7 +91,7 @@ std::string teeth_shader(bool own);
 /// The tongue, or gums and the wall of the mouth.
 std::string mucosa_shader(bool tongue, bool own);
 std::string matte_shader();
-// Materials laid out on texture coordinates without light, see part_texture.h; linear.
+// Materials without light, drawn on their texture coordinates, see part_texture.h. Their colours are linear.
 std::string part_texture_vertex_shader();
 std::string eye_texture_shader();
 std::string teeth_texture_shader();
@@ -107,10 +111,11 @@ std::string object_shader();
 /// Defines kTurnsPerMetre: how often the distance in a skin layer wraps around
 std::string turns_chunk();
 std::string frame_chunk();     ///< version and frame block
-std::string lights_chunk();    ///< follows frame_chunk(): lamps and surroundings
+std::string lights_chunk();    ///< lamps and surroundings; to be put after frame_chunk()
 std::string lighting_chunk();  ///< frame_chunk(), lights_chunk() and the shadow
 std::string noise_chunk();
 std::string texture_inputs_chunk();  ///< version and the outputs of part_texture_vertex_shader()
-std::string own_colour_chunk(bool own);  ///< own_colour(rest position, generated colour)
+/// Defines own_colour(rest position, generated colour), which returns the generated colour unless `own`
+std::string own_colour_chunk(bool own);
 
 }  // namespace risorius::render

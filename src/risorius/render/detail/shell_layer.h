@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Long hair on scalp and chin: many layers over the skin, transparent wherever no hair passes through them.
+/// Draws long hair on scalp and chin as shells: many copies of the skin at growing heights, transparent wherever no hair passes
+/// through them.
 ///
 /// Source: Lengyel et al. 2001, Real-Time Fur over Arbitrary Surfaces.
 #pragma once
@@ -18,8 +19,8 @@ namespace risorius::render {
 
 class ShellLayer {
   public:
-    /// `skin`: the painted triangles. `constants`: of Lights. Draws nothing when the appearance has no hair length. The context
-    /// must be current.
+    /// `skin`: the painted triangles. `constants`: those of Lights. Nothing is drawn when the lengths of hair and beard in the
+    /// appearance are 0. The context must be current.
     ShellLayer(const Scene& scene, const SceneBuffers& buffers, const SkinPlan& plan,
                const Vec3& paint_centre, const std::vector<unsigned>& skin,
                ShaderConstants constants);

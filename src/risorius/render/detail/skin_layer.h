@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The skin shaded once per pixel and looked up by finer samples. Shading takes far longer than visibility, and the colour inside
-/// a face changes little within a pixel.
+/// The skin layer: a picture of the skin, shaded about once per pixel. The samples of a picture (picture_cells.h) are finer; they
+/// test visibility and look their colour up in the layer. Shading takes far longer than visibility, and the colour on a smooth
+/// surface changes little within a pixel.
 ///
-/// Each sample takes the colour of its own pixel, or of the neighbour nearest to it in depth, after Chajdas, McGuire
-/// and Luebke 2011, Subpixel Reconstruction Antialiasing.
+/// Each sample takes the colour of its own place in the layer, or of the neighbouring place that is nearest to it in depth.
+/// Source: Chajdas, McGuire and Luebke 2011, Subpixel Reconstruction Antialiasing.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +17,10 @@
 
 namespace risorius::render {
 
-/// The largest depth of the skin, 0..1, in cells of the picture; 1 where a part of a cell shows no skin.
+/// The largest depth of the skin, 0..1, in each cell of the layer; 1 where a part of the cell shows no skin. These cells are not
+/// those of PictureCells.
 struct FarthestSkin {
-    static constexpr int kCell = 16;  ///< places along each side of a cell
+    static constexpr int kCell = 16;  ///< number of places along each side of a cell
     int columns = 0, rows = 0;
     float width = 0, height = 0;  ///< of the picture, in cells
     std::vector<float> depth;     ///< rows from the bottom
@@ -26,25 +28,25 @@ struct FarthestSkin {
 
 class SkinLayer {
   public:
-    /// For tiles of the given size with `samples` x `samples` per pixel, of which `shaded` x `shaded` are shaded. `constants`: of
-    /// Lights. The context must be current.
+    /// Makes a layer for tiles of the given size with `samples` x `samples` samples and `shaded` x `shaded` places per pixel.
+    /// `constants`: those of Lights. The context must be current.
     SkinLayer(int width_px, int height_px, int samples, int shaded,
               const ShaderConstants& constants);
     ~SkinLayer();
     SkinLayer(const SkinLayer&) = delete;
     SkinLayer& operator=(const SkinLayer&) = delete;
 
-    /// Binds the layer for shading of the skin, and clears a part of the given size.
+    /// Binds the layer as the framebuffer, so that the skin can be shaded into it, and clears a part of the given size.
     void begin(int width_px, int height_px);
     /// Uses the program that copies shaded skin into the bound framebuffer of bytes.
     void use() const;
 
-    /// The largest distance of the skin in the layer, cell by cell within the box; outside the box skin counts as missing. Waits
-    /// for the drawing.
+    /// Returns the largest depth of the skin in each cell within the box; outside the box, skin counts as missing. Waits until
+    /// the layer has been drawn.
     const FarthestSkin& farthest(const ClipBox& box);
 
-    /// The shaded places, rows from the bottom: sRGB bytes and the distance (see shader_lookup.cpp). Only places inside the
-    /// rectangle, px of the picture, are up to date.
+    /// Reads the shaded places, rows from the bottom. Each has four bytes: sRGB and the distance (see shader_lookup.cpp). Only
+    /// places inside the rectangle, px of the tile, are up to date.
     const std::vector<std::uint8_t>& read(const PixelBox& box);
     const std::vector<std::uint8_t>& places() const { return rgba_; }  ///< as of the last read()
     int shaded() const { return shaded_; }

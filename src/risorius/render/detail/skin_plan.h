@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Positions of lips, redness, hairline and ears on a head, derived from its landmarks. Parts without landmarks are omitted.
+/// Positions of lips, redness, hairline, brows, beard and ears on a head, derived from its landmarks. Parts without landmarks are
+/// omitted.
 #pragma once
 
 #include <array>
@@ -10,7 +11,7 @@
 
 namespace risorius::render {
 
-/// A soft spot of another tint: at its centre, albedo is multiplied by exp(log_tint).
+/// A spot of another tint with a soft edge. At its centre, the albedo is multiplied by exp(log_tint), channel by channel.
 struct SkinZone {
     Vec3 centre;      ///< rest, m
     double spread_m;  ///< standard deviation
@@ -18,8 +19,8 @@ struct SkinZone {
     double oil;  ///< added oil, which makes the skin glossy
 };
 
-/// The skin of an ear: points inside the box that lie in the bowl or outside a plane, which leans outwards towards the back and
-/// the top, as the auricle does.
+/// The skin of an ear: the points inside a box that lie in the bowl of the ear or outside of a plane. The plane leans outwards
+/// towards the back and the top, as the auricle does.
 struct EarRegion {
     bool known = false;
     Vec3 low, high;      ///< rest, m
@@ -34,7 +35,8 @@ struct SkinPlan {
     std::vector<SkinZone> zones;
     std::vector<Vec3> lip_outline;  ///< closed, rest, m; empty when not marked
     double lip_back_m = 0.0;        ///< lips lie in front of this z
-    /// Radius on the map (0..0.5) beyond which hair grows, by angle from straight up towards the left; above 1: no hair.
+    /// Radius on the paint map (0..0.5) beyond which hair grows, at equal steps of the angle from straight up towards the left;
+    /// above 1: no hair.
     std::array<double, kHairlineSteps> hairline;
     std::vector<SkinZone> beard;  ///< soft spots (centre and spread) with a beard
     std::array<EarRegion, 2> ears;
@@ -49,10 +51,10 @@ double beard_density(const SkinPlan& plan, const Vec3& rest);
 /// Tone of the hair at the age of the appearance: grey from middle age on.
 Vec3 hair_tone_at(const Appearance& appearance);
 
-/// Radius at which hair starts, in the direction of a place on the map.
+/// Returns the radius on the map at which hair starts, in the direction of `place`, a position on the map.
 double hairline_radius(const SkinPlan& plan, const Vec2& place);
 
-/// Points on a Catmull-Rom curve through `knots`, `steps` per span, ends included.
+/// Returns points on a Catmull-Rom curve through `knots`: `steps` per span between two knots, both ends of the curve included.
 std::vector<Vec3> smooth_curve(const std::vector<Vec3>& knots, int steps);
 
 }  // namespace risorius::render

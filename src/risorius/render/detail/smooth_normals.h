@@ -15,7 +15,8 @@ class SmoothNormals {
   public:
     SmoothNormals(const Points& rest, const std::vector<const Triangles*>& surfaces);
 
-    /// Computes three floats per vertex, unit length (zero where a vertex has no area around it).
+    /// Computes the unit normal of each vertex, three floats; zero where the triangles around a vertex have no area. `positions`:
+    /// three floats per vertex, m.
     void compute(const std::vector<float>& positions, std::vector<float>& normals);
 
   private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A bowl around each eyeball, open to the front. It closes the gap beside an eye whose lids do not touch it, so that one cannot
-/// see through the head.
+/// Draws a bowl around each eyeball, open to the front. It closes the gap between an eye and lids that do not touch it, so that
+/// one cannot see through the head.
 #pragma once
 
 #include <array>
@@ -15,7 +15,8 @@ namespace risorius::render {
 
 class SocketLayer {
   public:
-    /// Nothing is drawn for eyes that are missing or have no lid landmarks. `constants`: of Lights. The context must be current.
+    /// Nothing is drawn for eyes that are missing or have no lid landmarks. `constants`: those of Lights. The context must be
+    /// current.
     SocketLayer(const Scene& scene, const PosedMarks& marks, const ShaderConstants& constants);
 
     void upload(const Pose& pose, const PosedMarks& marks);
@@ -29,8 +30,8 @@ class SocketLayer {
     SocketLayer(const Scene& scene, const std::array<int, 2>& vertex,
                 const ShaderConstants& constants);
 
-    std::array<int, 2> vertex_;  ///< of each eyeball's surface, or -1 for no bowl
-    std::array<Vec3, 2> rest_;   ///< its rest position, m
+    std::array<int, 2> vertex_;  ///< a vertex on the surface of each eyeball, or -1 for no bowl
+    std::array<Vec3, 2> rest_;   ///< rest position of that vertex, m
     std::array<Eye, 2> eyes_;
     GlProgram program_;
     StreamedTriangles triangles_;

@@ -16,8 +16,8 @@ namespace risorius::render {
 
 class StrandLayer {
   public:
-    /// `sample_m`: size of a sample at the head; thinner hairs are drawn wider and paler. `constants`: of Lights. The context
-    /// must be current.
+    /// `sample_m`: size of a sample at the head; thinner hairs are drawn wider and paler. `constants`: those of Lights. The
+    /// context must be current.
     StrandLayer(const Scene& scene, std::vector<Strand> strands, const Camera& camera,
                 double sample_m, ShaderConstants constants);
     void upload(const Pose& pose, const PosedMarks& marks);
@@ -30,7 +30,8 @@ class StrandLayer {
   private:
     std::vector<Strand> strands_;
     std::array<Eye, 2> eyes_;
-    std::array<Vec3, 2> eye_point_;          ///< rest position of a vertex of each eye
+    /// Rest position of a vertex of each eyeball, m; the turn of the eye follows from it
+    std::array<Vec3, 2> eye_point_;
     std::array<int, 2> eye_vertex_{-1, -1};  ///< the number of that vertex
     Vec3 camera_;
     double sample_m_;

@@ -22,9 +22,9 @@ class StreamedTriangles {
     StreamedTriangles(const StreamedTriangles&) = delete;
     StreamedTriangles& operator=(const StreamedTriangles&) = delete;
 
-    /// Uploads the vertices, which are concatenated; there must be as many as the indices name.
+    /// Uploads the floats of all vertices, one vertex after the other. There must be as many vertices as the indices name.
     void upload(std::vector<float> vertices);
-    /// The vector of the last upload, cleared, to be filled and uploaded again.
+    /// Returns an empty vector to fill and to upload. It is that of the last upload, so that its memory is used again.
     std::vector<float> take();
 
     /// Blends over the picture without writing depth, with the current blend function and program. Binds its own vertex array.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The tear film along the lower lids: a concave meniscus between lid and eye that reflects the lamps.
+/// Draws the tear film along the lower lids: a concave meniscus between lid and eye that reflects the lamps.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace risorius::render {
 
 class TearLayer {
   public:
-    /// Draws nothing when no lids are found. `constants`: of Lights. The context must be current.
+    /// Nothing is drawn when no lids are found. `constants`: those of Lights. The context must be current.
     TearLayer(const Scene& scene, const ShaderConstants& constants);
 
     void upload(const Pose& pose, const PosedMarks& marks);

@@ -26,23 +26,25 @@ class TriangleChoice {
 
     /// Call when positions have changed.
     void moved() { looked_from_.reset(); }
-    /// Selects the triangles that the next draws show, for the current positions: those inside the clip space, without back faces
-    /// in batches that cull them. Wrinkled skin is listed separately. Simplified triangles are used unless `whole`.
+    /// Selects the triangles to draw next, for the current positions: those inside the clip space, and only those that face the
+    /// camera in batches with cull_back. Wrinkled skin is listed separately. Simplified triangles are used unless `whole` is
+    /// true.
     void choose(const Eigen::Matrix4f& clip_from_world, bool whole);
-    /// Selects the triangles that cast shadows: those of the skin, on either side of it (so light that enters the mouth does not
-    /// leave through the back of the head), that are nearer to the lamp than something visible. Without a clip space everything
-    /// counts as visible.
+    /// Selects the triangles that cast visible shadows: triangles of the skin that are nearer to the lamp than something visible.
+    /// They may face the lamp or not, so that light that enters the mouth does not leave through the back of the head. If
+    /// `clip_from_world` is null, everything counts as visible.
     void choose_casters(const Eigen::Matrix4f& light_from_world,
                         const Eigen::Matrix4f* clip_from_world);
-    /// Removes hidden triangles from the visible ones: eyes, teeth, gums and tongue behind the skin of the layer, and skin where
-    /// the layer already is the picture, which is recorded in the cells. The lining of the mouth stays, since it may show through
-    /// gaps narrower than the pixels of the layer.
+    /// Removes triangles from the visible selection that need not be drawn in samples: eyes, teeth, gums and tongue behind the
+    /// skin of the layer, and skin in cells that are copied from the layer. The kinds of the cells are recorded in `cells`;
+    /// `mark_others` must mark what else is drawn. The lining of the mouth stays, because it may show through gaps narrower than
+    /// the places of the layer.
     void leave_out_unseen(SkinLayer& skin, PictureCells& cells,
                           const std::function<void(PictureCells&)>& mark_others);
 
     /// Vertices of the last selection, three per triangle.
     const std::vector<unsigned>& corners() const { return choice_; }
-    /// Range of a batch in the selection of a purpose: first smooth triangles, then wrinkled ones, in indices.
+    /// Range of a batch in the selection of a purpose, counted in indices: first the smooth triangles, then the wrinkled ones.
     struct Range {
         int first = 0, smooth = 0, wrinkled = 0;
     };
@@ -71,7 +73,7 @@ class TriangleChoice {
     std::array<std::vector<Range>, kPurposes> ranges_;
     std::vector<unsigned> choice_, wrinkled_choice_;
     std::optional<Eigen::Matrix4f> looked_from_;
-    /// Per vertex x, y, z over w, and w, in the clip space of looked_from_
+    /// Four numbers per vertex in the clip space of looked_from_: x / w, y / w, z / w, and w
     std::vector<float> clip_places_;
     std::vector<float> lit_places_, farthest_lit_;
 };

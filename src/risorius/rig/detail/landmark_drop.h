@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Estimates missing landmarks: the atlas is warped to fit the given ones, and its points are projected onto the skin. A point on
-/// the margin of a lip is projected onto that lip only, because the other lip touches it.
+/// Estimates missing landmarks. The atlas is warped to fit the given ones, and its other landmarks are projected onto the skin. A
+/// point on the margin of a lip is projected onto that lip only, because the other lip touches it.
 #pragma once
 
 #include <map>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The muscles of a face that are simulated as volume-preserving solids instead of bundles of fibres, and their material.
+/// The muscles of a face that are simulated as volume-preserving solids, while the others are bundles of fibres; and their
+/// material.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@
 
 namespace risorius::rig {
 
-/// Field names are the keys of an entry of "solids" in a rig file.
+/// A muscle that is a solid. Field names are the keys of an entry of "solids" in a rig file.
 struct SolidMuscle {
     std::string muscle;
     double strength = 1;  ///< force at activation 1 over the force in the muscle table   [0, 100]

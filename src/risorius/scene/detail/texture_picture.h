@@ -8,8 +8,8 @@
 
 namespace risorius::scene {
 
-/// Reads it from its own file or from the file of the mesh. Throws Error naming the place of the material when there is no such
-/// picture.
+/// Reads the picture from its own file, or from the file of the mesh if it is stored there. Throws Error when there is no such
+/// picture; the message names the place of the material.
 Image read_texture(const geom::Texture& texture);
 
 }  // namespace risorius::scene

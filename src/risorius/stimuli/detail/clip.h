@@ -34,11 +34,12 @@ namespace risorius::stimuli {
 struct ClipPlan {
     design::Condition condition;
     design::ClipOptions clips;
-    /// Path that stands for the script in messages, because the script itself is in memory
+    /// Path that names the script in messages; the script itself is in memory
     std::string script_name;
     /// Given when luminance is matched; the clip is then made from an unmatched render (unmatched_render.h).
     std::optional<design::LuminanceMatch> luminance;
-    std::optional<media::Tone> tone;  ///< set once the renders of all conditions have been measured
+    /// Map of luminance; it is set when the renders of all conditions have been measured
+    std::optional<media::Tone> tone;
     std::optional<ClipSound> sound;
     int frames = 0, fps = 0, width_px = 0, height_px = 0;
     std::array<std::uint8_t, 3> background{};  ///< sRGB of the displayed background
@@ -60,10 +61,10 @@ struct ClipPlan {
 ClipPlan plan_clip(const design::Condition& condition, const design::Design& design,
                    animate::RenderInputs& inputs, SoundPlans& sounds);
 
-/// Whether `folder` holds this clip with all its files unchanged.
+/// Returns whether `folder` holds this clip with all its files unchanged.
 bool is_made(const ClipPlan& plan, const std::filesystem::path& folder);
 
-/// The names of a clip's files below its folder.
+/// The paths of a clip's files below the folder of the set.
 struct ClipFiles {
     std::filesystem::path script, strip, video, events;
     std::filesystem::path sound;    ///< empty when there is none
@@ -73,7 +74,7 @@ struct ClipFiles {
 };
 ClipFiles clip_files(const ClipPlan& plan);
 
-/// What a worker of a batch uses to make clips.
+/// The resources with which a worker of a batch makes clips.
 struct ClipWorker {
     const std::filesystem::path& folder;  ///< folder of the set
     int threads;                          ///< RenderRequest::threads
@@ -83,10 +84,10 @@ struct ClipWorker {
     const ProgressMonitor& monitor;
 };
 
-/// The job that renders a clip's script into the file `out`. The script is taken from the plan, in memory.
+/// Returns the job that renders a clip's script into the file `out`. The script is that of the plan, in memory.
 animate::RenderJob render_job_of(const ClipPlan& plan, const std::filesystem::path& out,
                                  const media::VideoOptions& coding, const ClipWorker& worker);
-/// The record of a run, without what differs between runs and between folders.
+/// Returns the record of a run without the parts that differ between runs or between folders.
 Json portable_record(const animate::RunRecord& record);
 std::string text_of_file(const std::filesystem::path& file);
 
@@ -94,7 +95,7 @@ std::string text_of_file(const std::filesystem::path& file);
 /// next attempt replaces.
 void make_clip(const ClipPlan& plan, const ClipWorker& worker);
 
-/// The sidecar of an existing clip.
+/// Returns the sidecar of an existing clip.
 Json clip_record(const ClipPlan& plan, const std::filesystem::path& folder);
 
 }  // namespace risorius::stimuli

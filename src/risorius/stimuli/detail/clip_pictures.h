@@ -17,9 +17,9 @@
 
 namespace risorius::stimuli {
 
-/// Whether the control changes the order of frames, so that all frames are needed first.
+/// Returns whether the control changes the order of frames, so that all frames are needed before the first one is written.
 bool shows_other_order(design::ControlKind kind);
-/// Whether the control shows only a window around eyes or mouth.
+/// Returns whether the control shows only a window around eyes or mouth.
 bool shows_part(design::ControlKind kind);
 
 /// Processes the pictures of one clip.
@@ -29,14 +29,14 @@ class ClipPictures {
 
     /// Adds a rendered picture, in the order of the frames.
     void add(Image image);
-    /// Writes the pictures that needed all frames first.
+    /// Call this after the last picture. It writes the pictures if the control needs all frames first.
     void finish(const animate::FrameRows& rows, const std::vector<int>& order);
 
-    /// Five frames, spread over the clip, side by side.
+    /// Returns five frames, spread over the clip, side by side.
     Image strip() const;
     std::string sha256() { return hash_.finish(); }
 
-    /// Measures of each frame of the clip, without marks; empty when those of the render are still valid.
+    /// Returns the measures of each frame of the clip, without marks; empty when those of the render are still valid.
     const std::vector<media::PictureMeasures>& measures() const { return measures_; }
 
   private:
@@ -55,7 +55,7 @@ class ClipPictures {
     media::Sha256 hash_;
 };
 
-/// The table of the clip, with one row per frame of the clip.
+/// Returns the table of the clip, with one row per frame of the clip.
 std::string events_table(const animate::FrameRows& rows, const std::vector<int>& order,
                          const std::vector<media::PictureMeasures>& measures, const ClipPlan& plan);
 

@@ -19,7 +19,7 @@ namespace risorius::stimuli {
 struct ClipSound {
     std::filesystem::path file;
     std::string sha256;
-    /// From the first frame to the first sample, at the rate of the recording
+    /// Number of samples from the first frame to the first sample, at the rate of the recording
     std::int64_t offset_samples = 0;
     double gain_db = 0;
     media::Loudness loudness;  ///< after the gain
@@ -28,8 +28,8 @@ struct ClipSound {
 /// Measures each recording once for all clips that use it.
 class SoundPlans {
   public:
-    /// The sound of a condition. `lufs`: the target loudness. Throws Error naming `place` when the clip contains no part of the
-    /// recording, or the target cannot be reached.
+    /// Returns the sound of a condition. `lufs`: the target loudness. Throws Error naming `place` when the clip contains no part
+    /// of the recording, or the target cannot be reached.
     ClipSound at(const design::Condition& condition, double duration_s, std::optional<double> lufs,
                  const std::string& place);
 
@@ -37,9 +37,9 @@ class SoundPlans {
     std::map<std::string, ClipSound> known_;
 };
 
-/// The whole recording with its gain, for the sound track of the video.
+/// Returns the whole recording with its gain, for the sound track of the video.
 std::shared_ptr<const media::Sound> sound_of(const ClipSound& sound);
-/// The part of the recording that the clip contains, starting at the first frame.
+/// Returns the part of the recording that the clip contains, starting at the first frame.
 media::Sound heard_of(const ClipSound& sound, double duration_s);
 
 }  // namespace risorius::stimuli

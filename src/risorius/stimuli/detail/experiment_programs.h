@@ -7,11 +7,12 @@
 
 namespace risorius::stimuli {
 
-/// experiment.py, for PsychoPy. It is the same for every set and reads settings.json and conditions.csv beside it.
+/// Returns experiment.py, the program for PsychoPy. It is the same for every set. It reads settings.json and conditions.csv in
+/// its folder.
 const std::string& psychopy_program();
 
-/// index.html, for jsPsych. `from`: the packages of jsPsych, a URL or a folder relative to the page. `settings` and `conditions`: JSON
-/// text, included in the page because a page that is opened as a file may not read other files.
+/// Returns index.html, the program for jsPsych. `from`: the packages of jsPsych, a URL or a folder relative to the page.
+/// `settings` and `conditions`: JSON text, included in the page because a page that is opened as a file may not read other files.
 std::string jspsych_page(const std::string& title, const std::string& from,
                          const std::string& settings, const std::string& conditions);
 

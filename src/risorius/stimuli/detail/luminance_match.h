@@ -7,7 +7,8 @@
 ///   luminance/luminance.json    for all conditions together, and the target
 ///   luminance/mean.svg, sd.svg  the clips in their order, before and after (also as .png, with the data of the charts)
 ///
-/// Means and deviations are over all measured pixels of all frames: the whole picture, or the oval of the face.
+/// Means and standard deviations are over all measured pixels of all frames. Measured is the whole picture, or the oval of the
+/// face.
 #pragma once
 
 #include <filesystem>
@@ -20,10 +21,10 @@
 
 namespace risorius::stimuli {
 
-/// Indices in the plan of the conditions that are not yet measured.
+/// Returns the indices, in the plan, of the conditions that are not yet measured.
 std::vector<std::size_t> unmeasured(const BatchPlan& plan, const std::filesystem::path& folder);
 
-/// Sets the map of each clip. All conditions must be measured. Throws Error when the target cannot be reached.
+/// Sets the map of luminance of each clip. All conditions must be measured. Throws Error when the target cannot be reached.
 void match_luminance(const std::filesystem::path& folder, BatchPlan& plan);
 
 /// Writes the report. All clips must exist. Returns the names of the files in `folder`.
@@ -31,7 +32,7 @@ std::vector<std::filesystem::path> write_luminance_report(const BatchPlan& plan,
                                                           const std::vector<Json>& records,
                                                           const std::filesystem::path& folder);
 
-/// A summary of the matching in a sentence or two.
+/// Returns a summary of the matching in one or two sentences.
 std::string luminance_text(const std::vector<Json>& records);
 
 }  // namespace risorius::stimuli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A condition as it was rendered, before its luminance is matched with that of the set. It is kept losslessly until all
-/// conditions are measured and the clips that use it are made:
+/// An unmatched render: a condition as it was rendered, before its luminance is matched with that of the set. It is kept
+/// losslessly until all conditions are measured and the clips that use it are made:
 ///
 ///   intermediate/NAME.mkv     the pictures
 ///   intermediate/NAME.tsv     the table of frames, frame_table.h
@@ -31,21 +31,23 @@ struct UnmatchedRender {
     media::LuminanceSums luminance;  ///< within the measured part of the picture
 };
 
-/// The render of the clip, or of the condition of a control. Empty unless it is complete and belongs to the same script.
+/// Returns the render of the clip, or for a control that of its condition. Returns nothing unless the render is complete and
+/// belongs to the same script.
 std::optional<UnmatchedRender> find_unmatched_render(const ClipPlan& plan,
                                                      const std::filesystem::path& folder);
 
 /// Renders the condition of a clip. Throws as make_clip() does.
 void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker);
 
-/// The luminance of a clip before matching, from its unmatched render or from the finished clip.
+/// Returns the luminance of a clip before matching, from its unmatched render or from the finished clip.
 std::optional<media::LuminanceSums> measured_luminance(const ClipPlan& plan,
                                                        const std::filesystem::path& folder);
 
-/// Removes the clip's own render; that of its condition stays.
+/// Removes the clip's own render, but not that of its condition.
 void remove_unmatched_render(const ClipPlan& plan, const std::filesystem::path& folder);
 
-/// Mask of the pixels that are measured in a frame: not 0 within the oval of the face; empty when the whole picture is measured.
+/// Returns the mask of the pixels that are measured in a frame: not 0 within the oval of the face. It is empty when the whole
+/// picture is measured.
 std::vector<std::uint16_t> measured_part(const ClipPlan& plan, const animate::FrameRows& rows,
                                          int frame);
 

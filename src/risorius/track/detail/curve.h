@@ -44,8 +44,8 @@ class SampledCurve {
     double rate_hz_, start_s_;
 };
 
-/// Minimum-jerk movement from 0 to 1, with velocity 0 at both ends. s is clamped to [0, 1].
-/// Source: Flash & Hogan 1985, J. Neurosci. 5, 1688-1703.
+/// Returns the position in a minimum-jerk movement from 0 to 1, with velocity 0 at both ends. s is the time over the duration; it
+/// is clamped to [0, 1]. Source: Flash & Hogan 1985, J. Neurosci. 5, 1688-1703.
 double minimum_jerk(double s);
 
 }  // namespace risorius::track

@@ -21,13 +21,16 @@
 
 namespace risorius::track {
 
-/// Field names are the keys of "idle" in a script. 0 switches a part off.
+/// The kinds and amounts of spontaneous movement. Field names are the keys of "idle" in a script. A rate or size of 0 switches
+/// the movement off.
 struct IdleOptions {
     double blinks_per_minute = 17;  ///< [0, 60]
     double partial_blinks = 0;      ///< fraction of blinks that do not close the lids, [0, 1]
     double saccade_deg = 2;         ///< mean eccentricity of the gaze, [0, 25]
-    double fixation_s = 0.4;        ///< mean; each lasts 0.5 to 1.5 times as long, [0.1, 20]
-    double sway = 1;  ///< SD, as a ratio of 0.8, 0.6, 0.4 deg (yaw, pitch, roll) and 1.5 mm, [0, 5]
+    /// Mean duration of a fixation; each lasts 0.5 to 1.5 times as long, [0.1, 20]
+    double fixation_s = 0.4;
+    /// Factor of the SD of the head's sway; at 1, the SD is 0.8, 0.6, 0.4 deg (yaw, pitch, roll) and 1.5 mm, [0, 5]
+    double sway = 1;
     double breaths_per_minute = 14;  ///< [0, 60]
 };
 
@@ -44,7 +47,7 @@ struct IdleBlink {
     double start_s;
     double intensity;
 };
-/// The blinks within the event.
+/// Returns the blinks within the event.
 std::vector<IdleBlink> idle_blinks(const IdleEvent& event);
 
 struct IdleSaccade {
@@ -56,7 +59,7 @@ class IdleMotion {
   public:
     explicit IdleMotion(const IdleEvent& event);
 
-    /// Gaze and head motion at t; zero outside the event.
+    /// Returns gaze and head motion at t; zero outside the event.
     KinematicValues at(double t_s) const;
     const std::vector<IdleSaccade>& saccades() const { return saccades_; }
 
