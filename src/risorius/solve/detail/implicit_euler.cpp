@@ -138,7 +138,7 @@ class QuasiStatic final : public Integrator {
 
   private:
     const IntegratorOptions options_;
-    ProgressMonitor monitor_;
+    DivergenceMonitor monitor_;
     Newton newton_;
     Points start_;
 };
