@@ -3,8 +3,8 @@
 /// Deforms the average head into that of a person. The handles of the parameters table move every part; the topology does not
 /// change.
 ///
-/// A handle is at the point `at` and acts within the distance `reach`. Its weight k at the distance d is Wendland's bell: (1 -
-/// t)^4 (4 t + 1) with t = d / reach. A point p of the left side moves to
+/// A handle is at the point `at` and acts within the distance `reach`. Its weight k at the distance d is Wendland's bell,
+/// (1 - t)^4 (4 t + 1) with t = d / reach. A point p of the left side moves to
 ///   p + sum over handles of  parameter * k * by                (move)
 ///                            parameter * k * by (p - at) / 100 (scale)
 /// The right side is the mirror image. Near each globe the displacement fades into that of the globe's centre, so that globes keep their
