@@ -40,7 +40,7 @@ class LipDrive {
     LipDrive(const rig::Head& head, const rig::RigDescription& rig, const Shell& shell,
              const TissueMesh& mesh, const std::vector<Attachment>& attachments);
 
-    /// Sets the factors on the turn and the push of both lips.
+    /// Sets the factors on the turn and the push of both lips, relative to the standard head.
     void scale(const rig::LipsDescription& lips);
     /// Keeps only nodes that `row` maps to 0..`rows` - 1, and gives them these numbers.
     void keep(const std::vector<int>& row, int rows);
