@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Changes the muscle strengths of a face that is already built, and evaluates variants of its rig. Both serve to fit a rig to
+/// Changes the muscle strengths of a face that is already built, and evaluates variants of its rig. Both are used to fit a rig to
 /// measurements.
 #pragma once
 

@@ -17,6 +17,7 @@
 
 namespace risorius::face {
 
+/// Options of build_shell().
 struct ShellOptions {
     int vertices = 800;  ///< wanted number of skin nodes
 };
@@ -33,7 +34,7 @@ struct Shell {
     std::vector<double> spacing_m;  ///< V, wanted edge length
     /// N, signed height over the line where the lips meet and, behind it, over the occlusal plane.
     std::vector<double> over_bite_m;
-    /// N, the mirror image of each shell vertex, which is itself on the midline; empty when the head is not symmetric.
+    /// N, the shell vertex that is the mirror image of each; on the midline, the vertex itself. Empty when the head is not symmetric.
     std::vector<int> mirrored;
 };
 

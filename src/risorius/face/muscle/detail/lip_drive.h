@@ -12,8 +12,7 @@
 /// which the fully thickened muscle pushes. k and k' are stiffnesses per node, N/m.
 ///   E = sum r k/2 |(I - e e^T)(x - t)|^2 + sum p k'/2 min(0, (x - X) . n - (1 - (1 - p)^3) d)^2
 /// Targets follow the same fraction of the mandible's motion as the tissue there.
-/// Sources: Blair & Smith 1986 (marginal against peripheral part);
-/// angles and distances from measured expression scans.
+/// Sources: Blair & Smith 1986 (marginal against peripheral part); angles and distances from measured expression scans.
 #pragma once
 
 #include <array>
@@ -63,7 +62,7 @@ class LipDrive {
     struct Turned {
         int node, lip;
         double jaw, weight, stiffness;
-        Vec3 rest, axis;  // the axis is a point on the teeth; it runs from right to left
+        Vec3 rest, axis;  // axis: a point of the axis, which runs from right to left
         Vec3 start, target;
     };
     struct Pushed {

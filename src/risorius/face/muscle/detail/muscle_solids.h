@@ -51,8 +51,8 @@ using Wrenches = std::array<Wrench, kBodies>;
 class MuscleSolids {
   public:
     /// `attachments` are those of the tissue. Where a volume muscle lies between tissue and bone, the tissue is bound to the muscle and the
-    /// stiffness of its attachment is removed. Throws Error with the name of
-    /// the muscle when it cannot be placed in this head.
+    /// stiffness of its attachment is removed. Throws Error with the name of the muscle when it cannot be placed
+    /// in this head.
     MuscleSolids(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
                  const Shell& shell, const TissueMesh& mesh, std::vector<Attachment>& attachments);
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
 /// Finds the contact pairs of the face: deep tissue and lips against skull, mandible and teeth, upper lip against lower lip, lids
-/// against the eyeball. The pairs are found before a solve and stay the same
-/// within it.
+/// against the eyeball. The pairs are found before a solve and stay the same within it.
 ///
 /// The penetration of a pair at rest is subtracted, so that there is no force at rest. Contact planes are blended from several points
 /// of the surface, so that they turn smoothly as tissue slides over it; with the nearest point alone, held poses would tremble. The

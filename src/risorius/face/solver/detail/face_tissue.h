@@ -101,8 +101,7 @@ class FaceTissue {
     }
 
     /// Solves one step of length h, s. `start` and `aim` are n x 3, m: the positions at the start of the step, and a (see above). x is
-    /// the first guess and becomes the result. `warm_start` has moves of x, n x 3, m, from
-    /// which the first curvature pairs of L-BFGS are made.
+    /// the first guess and becomes the result. `warm_start` has moves of x, n x 3, m, from which the first curvature pairs of L-BFGS are made.
     StepStats implicit_step(double h, const Points& start, const Points& aim,
                             const Eigen::VectorXd& activation,
                             const solve::QuasiNewtonOptions& options, Points& x,

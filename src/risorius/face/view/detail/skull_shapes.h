@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The bones of the head as signed distance fields in the standard head. They give the
-/// shape of bone where it cannot be estimated from the skin.
+/// The bones of the head as signed distance fields in the standard head. They give the shape of bone where
+/// it cannot be estimated from the skin.
 ///
 /// Frame: the head frame of the standard head, mm (rigs/standard/landmarks.json). Left and right are symmetric.
 /// Numbers: rigs/standard/skull_shapes.json.
