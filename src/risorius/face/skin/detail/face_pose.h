@@ -10,8 +10,7 @@
 
 namespace risorius::face {
 
-/// The vertices are in the world frame, in which the head frame lies while the head is at rest: the motion of the head has been applied
-/// to them. The motions of head and mandible are given separately.
+/// A pose. Its vertices are in the world frame, which equals the head frame of the head at rest: they include the motion of the head.
 struct FacePose {
     Points vertices;                   ///< V x 3, m, world frame, in the order of the mesh
     std::array<Mat3, 2> eye_rotation;  ///< from rest, in the world frame, left and right
