@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Changes the strengths of a face that is already built, and evaluates variants of its rig. For the fit of a rig to measurements.
+/// Changes the muscle strengths of a face that is already built, and evaluates variants of its rig. Both are used to fit a rig to
+/// measurements.
 #pragma once
 
 #include <memory>
@@ -15,29 +16,30 @@ namespace risorius::face {
 class Face;
 struct FaceImpl;
 
-/// A view of a Face, from Face::calibration(). The changes hold from the next step or equilibrium on.
+/// A view of a Face, from Face::calibration(). The changes take effect from the next step or equilibrium on.
 class Calibration {
   public:
     explicit Calibration(FaceImpl& face) : face_(&face) {}
 
-    /// Multiplies the maximum force of every fibre of a muscle, both sides.
+    /// Multiplies the maximum isometric force of every fibre of a muscle, on both sides, by `factor`.
     void scale_muscle(const std::string& muscle, double factor);
-    /// Replaces the numbers of the rig that drive the lips.
+    /// Replaces the numbers of the rig that say how far orbicularis oris turns and pushes the lips.
     void scale_lips(const rig::LipsDescription& lips);
 
   private:
     FaceImpl* face_;
 };
 
-/// The tissue of a face with other numbers of anatomy or material, on the same nodes. The two rigs may differ in the fibres and
-/// in the tissue. Landmarks, thickness and jaw must be equal.
+/// The tissue of a face with another rig, on the same nodes: it gives the gradient of the static energy that this rig would have.
 class Variant {
   public:
-    /// Keeps a reference to the face.
+    /// `changed` may have other fibres, also more or fewer of them, and other numbers for the tissue. The list of the muscles, the
+    /// landmarks, thickness and jaw must be those of the rig of `face`. Keeps a reference to the face.
     Variant(const Face& face, const rig::RigDescription& changed);
     ~Variant();
 
-    /// Returns dE/dx without contact at given nodes, n x 3, N. Rows of fixed nodes are zero.
+    /// Returns the gradient of the static energy, n x 3, N, at `nodes` (n x 3, m, rows of Statics::nodes()), `activation` (per
+    /// column, 0..1) and drive. Contact is left out. Rows of fixed nodes are zero.
     Points gradient(const Points& nodes, const Eigen::VectorXd& activation,
                     const track::Drive& drive);
 

@@ -3,14 +3,13 @@
 /// The simulated face of one rig: soft tissue, skin, muscles, jaw, lids and eyes. It is stepped in time by BDF2, the second-order
 /// backward difference formula, or put into static equilibrium.
 ///
-/// The state depends on the drives alone: the same drives give the same bytes. The equations are in
-/// solver/detail/face_tissue.h.
+/// The state depends on the drives alone: the same drives give the same bytes. The equations are in docs/theory/integrator.md.
 ///
-/// `Face` itself steps and poses. Four views give the rest; each has a header of its own:
+/// `Face` itself steps in time and returns poses. Four views give access to the rest; each has a header of its own:
 /// - `statics()` (statics.h): gradient, linear solves and sensitivities of an equilibrium
-/// - `diagnostics()` (diagnostics.h): muscles, landmarks, energies, penetration, mesh, history of the solver
-/// - `surfaces()` (surfaces.h): surfaces of the muscles, wrinkles, vertices that something else has moved
-/// - `calibration()` (calibration.h): strengths of a face that is already built
+/// - `diagnostics()` (diagnostics.h): state of the muscles, landmarks, energies, penetration, mesh, history of the solver
+/// - `surfaces()` (surfaces.h): surfaces of the muscles, wrinkles, poses from given vertices
+/// - `calibration()` (calibration.h): changes of the muscle strengths of a face that is already built
 #pragma once
 
 #include <functional>
@@ -38,18 +37,20 @@ class Statics;
 class Surfaces;
 struct FaceImpl;
 
-/// Maximum number of iterations for an equilibrium. Most need 100 to 200; lips that buckle while they roll in need up to 1,000.
+/// Maximum number of iterations for an equilibrium. Most equilibria need 100 to 200; those with lips that buckle while they roll in need
+/// up to 1,000.
 inline constexpr int kRestIterations = 1500;
 
 using track::Motion;
 
 /// The drive as a function of time, s. A drive without excitation (`track::Drive{}`) means that no muscle is active. Functions that take
-/// a drive throw Error when its vectors have another size than the rig has columns, or when an excitation is not finite.
+/// a drive throw Error when one of its vectors does not have one entry per column of the rig, or when an excitation is not finite.
 using DriveAt = std::function<track::Drive(double t_s)>;
 
+/// A simulated face: the rig on its mesh, and the state of tissue, muscles and jaw.
 class Face {
   public:
-    /// `place` names the rig in messages. Throws Error when the mesh and the rig do not fit.
+    /// `place` names the rig in messages. Throws Error when the mesh does not fit the rig.
     Face(const rig::RigDescription& rig, const geom::PolygonMesh& mesh, const Quality& quality,
          const std::string& place);
     ~Face();
@@ -57,38 +58,41 @@ class Face {
 
     /// Sets what moves the jaw, from the next start() or solve_equilibrium() on. The default is the channels of the jaw.
     void drive_jaw_by(track::JawDrive by);
-    /// Sets whether pose_at() is dynamic (the default) or quasi-static. The search for a quasi-static pose starts at the one before.
+    /// Sets whether pose_at() is dynamic (the default) or quasi-static. The search for a quasi-static pose starts at the last pose.
     void move(Motion how);
-    /// Sets gravity in the world frame, m/s^2; the default is 9.81 downwards. The rest shape is that of an upright head. Without a
-    /// value it is that of a tilted head too: the tissue then has inertia but no weight.
+    /// Sets gravity in the world frame, m/s^2; the default is (0, -9.81, 0). The rest shape is that of an upright head under this
+    /// default, so only the difference from it deforms the tissue. std::nullopt turns the difference off: the tissue does not sag
+    /// when the head tilts, but it keeps its inertia.
     void set_gravity(const std::optional<Vec3>& gravity_m_s2);
-    /// Puts a rigid block between the incisors that holds them `height_m` apart; 0 removes it. Only for a jaw that its muscles
-    /// move. Insert the block while the jaw is open.
+    /// Puts a rigid block between the incisors that holds them `height_m` apart; 0 removes it. Insert the block while the jaw is
+    /// open. Throws std::logic_error unless muscles move the jaw.
     void set_bite_block(double height_m);
-    /// Adds a force to all others, see "How to add a force" in solve/energy_term.h. Its nodes are the rows of Statics::nodes(). Its
-    /// metric covers the nodes of the tissue only, the first Diagnostics::node_count() rows. Call it before start().
+    /// Adds a force to those of the face, see "How to add a force" in solve/energy_term.h. Its nodes are the rows of Statics::nodes(). Its
+    /// metric may only refer to nodes of the tissue, the first Diagnostics::node_count() rows. Call add_force() before start().
     void add_force(std::shared_ptr<solve::EnergyTerm> force);
 
     /// Sets the time to 0 and puts activation and tissue into equilibrium with the drive.
     void start(const DriveAt& drive);
     /// Advances by one step of length step_s().
     StepStats step(const DriveAt& drive);
-    /// Advances until t and returns the pose at t. Between steps the pose is interpolated, so that videos of different frame rates
-    /// agree at common times.
+    /// Advances to the time t_s, s, and returns the pose there. Between steps the pose is interpolated, so that videos of different
+    /// frame rates agree at common times. If poses are quasi-static, it solves the equilibrium with the drive at t_s instead.
     FacePose pose_at(double t_s, const DriveAt& drive);
-    /// Puts the face into static equilibrium with activations (per column, 0..1) and the kinematic channels of a drive.
+    /// Puts the face into static equilibrium. `activation` has one entry per column, 0..1; if it is empty, no muscle is active. Of
+    /// `kinematic`, only the kinematic channels count.
     StepStats solve_equilibrium(const Eigen::VectorXd& activation, const track::Drive& kinematic,
                                 const StaticOptions& options = {.iterations = kRestIterations});
 
-    /// Returns the pose after the last step or equilibrium. Surfaces that a step left in each other are separated (separation.h).
+    /// Returns the pose after the last step or equilibrium. Penetrations that a step has left are resolved, in this pose only.
     FacePose pose() const;
-    double time_s() const;                            ///< since start()
-    double step_s() const;                            ///< of the quality
-    const Eigen::VectorXd& activation() const;        ///< per column, after the last step
+    double time_s() const;                            ///< since start(), s
+    double step_s() const;                            ///< length of a step, s: Quality::step_s
+    const Eigen::VectorXd& activation() const;        ///< per column, 0..1, after the last step
     Eigen::VectorXd activation_at(double t_s) const;  ///< interpolated like the pose
     const rig::Head& head() const;
 
-    /// Views. Each remains valid as long as the face exists, also when the face is moved. Include the header of the view.
+    /// Views of the face. A view remains valid as long as the face exists, also after a move of the Face object (std::move). Include
+    /// the header of the view that you use.
     Statics statics() const;
     Diagnostics diagnostics() const;
     Surfaces surfaces() const;

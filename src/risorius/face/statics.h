@@ -4,10 +4,10 @@
 ///
 ///     g(x, p) = 0,   H = dg/dx,   dx/dp = - H^-1 dg/dp
 ///
-/// - x: node positions, n x 3, m; p: what the equilibrium depends on (activations, kinematic channels, numbers of the rig)
+/// - x: node positions, n x 3, m; p: a parameter of the equilibrium (an activation, a kinematic channel, a number of the rig)
 /// - g: gradient of the static energy, n x 3, N; H: tangent stiffness, N/m
 ///
-/// For a number L(x) with b = dL/dx, the adjoint form is dL/dp = - (H^-1 b) . dg/dp.
+/// For a scalar function L(x) with b = dL/dx, the adjoint form is dL/dp = - (H^-1 b) . dg/dp.
 #pragma once
 
 #include <span>
@@ -27,23 +27,25 @@ class Statics {
   public:
     explicit Statics(FaceImpl& face) : face_(&face) {}
 
-    /// Current node positions x, n x 3, m. The reference changes with the next step or equilibrium.
+    /// Returns the current node positions x, n x 3, m. The next step or equilibrium overwrites them.
     const Points& nodes() const;
 
-    /// Returns g at any nodes, activation (per column) and drive, n x 3, N. It is zero in equilibrium and on fixed nodes.
+    /// Returns g, n x 3, N, at any `nodes` (n x 3, m), `activation` (per column, 0..1) and drive. It is zero in equilibrium and on
+    /// fixed nodes.
     Points gradient(const Points& nodes, const Eigen::VectorXd& activation,
                     const track::Drive& drive) const;
 
     /// Returns H^-1 b, n x 3, at the equilibrium. H is factored at the first call after an equilibrium.
     Points solve(const Points& b) const;
 
-    /// Returns the derivatives of all vertices of the mesh, V x 3 each, in m per unit: by the activation of each of `columns`,
-    /// then by each of `channels`. Lids that a column moves are included. At the kink of a lid's levator the derivative is the
-    /// mean of both sides.
+    /// Returns the derivatives of all vertices of the mesh, V x 3 each: first by the activation of each of `columns`, m, then by
+    /// each of `channels`, m per unit of the channel. The motion of a lid that a column moves is included. Where the motion of a
+    /// lid has a kink (activation 0 of the levator), the derivative is the mean of both sides.
     std::vector<Points> sensitivities(std::span<const int> columns,
                                       std::span<const track::Kinematic> channels) const;
 
-    /// Returns b = dL/dx, n x 3, for a given dL/d(vertices), V x 3, with bones and lids held. Wrinkles are left out.
+    /// Returns b = dL/dx, n x 3, for the gradient of L by the vertices of the mesh, V x 3. Bones and lids do not move. Wrinkles are
+    /// left out.
     Points pull_back(const Points& vertex_gradient) const;
 
   private:

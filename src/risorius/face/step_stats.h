@@ -5,15 +5,16 @@
 
 namespace risorius::face {
 
+/// Statistics of one step, substep or equilibrium. Depths are penetrations beyond those of the rest shape.
 struct StepStats {
     int iterations = 0;
     int evaluations = 0;         ///< of the energy and its gradient
-    double last_step_rms_m = 0;  ///< how far the last iteration moved the nodes, RMS
-    double contact_depth_m = 0;  ///< maximum penetration that is left
+    double last_step_rms_m = 0;  ///< RMS move of the nodes in the last iteration
+    double contact_depth_m = 0;  ///< maximum penetration of all contacts
     double lip_depth_m = 0;      ///< the same between the lips
     double bone_depth_m = 0;     ///< the same into bone and teeth
-    double muscle_volume_error =
-        0;                   ///< maximum over the volume muscles, |volume / rest volume - 1|
+    /// Maximum over the volume muscles of |volume / rest volume - 1|.
+    double muscle_volume_error = 0;
     bool converged = false;  ///< the tolerance was met before the iterations ran out
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What is drawn of a face besides its pose: muscles, wrinkles, and vertices that something else has moved.
+/// Data for drawing a face besides its pose: the surfaces of the muscles, the wrinkle lines, and poses from vertices that something
+/// other than the simulation has moved.
 #pragma once
 
 #include "risorius/core/types.h"
@@ -13,25 +14,26 @@ namespace risorius::face {
 
 struct FaceImpl;
 
-/// A view of a Face, from Face::surfaces(). Positions are in m. V is the number of vertices of the mesh of the head.
+/// A view of a Face, from Face::surfaces(). V is the number of vertices of the mesh of the head.
 class Surfaces {
   public:
     explicit Surfaces(FaceImpl& face) : face_(&face) {}
 
-    /// The muscles as closed surfaces at rest. They are built at the first call.
+    /// Returns the muscles as closed surfaces at rest, m, in the head frame. The first call builds them.
     const MuscleSurfaces& muscles() const;
-    /// Returns the vertices of muscles(), with the motion of the head, at the time of the last Face::pose_at(t_s).
+    /// Returns the vertices of muscles() at the time t_s, in the world frame, m. Call it after Face::pose_at() with the same t_s.
     Points muscle_vertices_at(double t_s) const;
 
-    /// The part of the skin that is simulated, F x 3 vertices of the mesh.
+    /// Returns the triangles of the skin that are simulated, F x 3 indices of mesh vertices.
     const Triangles& simulated_skin() const;
-    /// The pattern of wrinkles that FacePose::fold_depth refers to. It is empty when the rig has none.
+    /// Returns the pattern of wrinkle lines that FacePose::fold_depth refers to. It is empty when the rig has none.
     const WrinkleLines& wrinkle_lines() const;
 
-    /// Makes a pose from V x 3 vertices that something else has moved, in the head frame. Eyes, jaw and the motion of the head
-    /// are those of the drive.
+    /// Makes a pose from vertices, V x 3, m, in the head frame, that something other than the simulation has moved. The eyes, the jaw
+    /// and the motion of the head are those of the drive.
     FacePose posed(Points vertices, const track::Drive& drive) const;
-    /// Computes FacePose::fold_depth of such a pose from the strain of its skin. One thread at a time.
+    /// Computes FacePose::fold_depth of such a pose from the strain of its skin. Do not call it from several
+    /// threads at once.
     void fold(FacePose& pose, const track::Drive& drive) const;
 
   private:

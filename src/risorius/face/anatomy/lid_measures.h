@@ -11,10 +11,12 @@
 
 namespace risorius::face {
 
-/// Height of the largest opening between the lids through which the eye's centre is visible, m, over the whole fissure and beyond.
+/// Returns the maximum height of the opening between the lids, m, over the whole fissure and a little beyond. The opening is measured
+/// as seen from the centre of the eye. `vertices`: V x 3, m, head frame.
 double max_lid_gap_m(const rig::Head& head, const EyeLids& lids, const Points& vertices);
 
-/// How much deeper than at rest the skin around the eyes reaches into the eyes' surfaces, m; 0 where it does not. `turn`: rotation of each eye.
+/// Returns how much deeper than at rest the skin around the eyes reaches into the eyes, m; 0 if it does not. `turn`: rotation of each
+/// eye from rest; `vertices`: V x 3, m, head frame.
 double depth_in_eyes_m(const rig::Head& head, const std::array<Mat3, 2>& turn,
                        const Points& vertices);
 

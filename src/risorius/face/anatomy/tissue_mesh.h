@@ -18,22 +18,25 @@ namespace risorius::face {
 
 enum Layer { kDeep = 0, kMiddle = 1, kSkin = 2, kLayers = 3 };
 
-inline constexpr double kMiddleDepth = 0.42;  ///< of the thickness, from the skin
+/// Depth of the middle layer under the skin / thickness of the tissue.
+inline constexpr double kMiddleDepth = 0.42;
 
 inline int node_of(int shell_vertex, Layer layer) { return kLayers * shell_vertex + layer; }
 
+/// The tetrahedral mesh of the tissue at rest. N: vertices of the shell; T: tetrahedra.
 struct TissueMesh {
-    Points nodes;  ///< 3N x 3, rest
-    Tets tets;
-    std::vector<Layer>
-        tet_layer;  ///< outer layer of the slab that the tet lies in: kMiddle (deep slab) or kSkin
-    std::vector<double> thickness_m;  ///< N
+    Points nodes;  ///< 3N x 3, m, at rest
+    Tets tets;     ///< T x 4 nodes
+    /// T, the outer layer of nodes of each tetrahedron: kMiddle between bone and middle layer, kSkin above.
+    std::vector<Layer> tet_layer;
+    std::vector<double> thickness_m;  ///< N, of all tissue from bone to skin
     std::vector<Vec3> direction;      ///< N, outward, unit
     std::vector<double> area_m2;      ///< N, area of skin assigned to the vertex
     int dropped_tets = 0;             ///< number of tets that were too thin to be used
 };
 
-/// Thickness of the tissue over bone below a point of the skin, m: the samples of the rig, weighted by 1 / distance^4.
+/// Returns the thickness of the tissue between a point p of the skin and the bone, m: the mean of the samples of the rig, weighted by
+/// 1 / distance^4.
 double interpolate_thickness(const rig::Head& head,
                              const std::vector<rig::ThicknessSample>& samples, const Vec3& p);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The state of a face. `Face` and its views (statics.h, diagnostics.h, surfaces.h, calibration.h) share one of these.
+/// Everything that a face consists of. `Face` and its views (statics.h, diagnostics.h, surfaces.h, calibration.h) share one FaceImpl.
 #pragma once
 
 #include <array>
@@ -27,8 +27,9 @@
 
 namespace risorius::face {
 
+/// The parts of a face, in the order in which they are built, and its state.
 struct FaceImpl {
-    /// What the solver knows about one moment.
+    /// The state at one moment.
     struct State {
         Points x;                    ///< n x 3, m, rows as in FaceTissue::rest()
         Eigen::VectorXd activation;  ///< per column, 0..1
@@ -49,14 +50,15 @@ struct FaceImpl {
     FaceTissue tissue;
     std::optional<FacePoser> poser;
 
-    State now,
-        before;  ///< at the last substep and at the one before; frames between are interpolated
+    /// The states after the last substep and after the one before it. Poses between them are interpolated.
+    State now, before;
     std::optional<Equilibrium> equilibrium;
     DrivenJaw driven_jaw;
     bool went_back = false;  ///< the last substep reversed the move of the one before
-    Points last_move;  ///< move of x in the last substep relative to bone, n x 3, m; or no rows
+    Points last_move;  ///< move of x in the last substep beyond that of bone, n x 3, m; or no rows
     Neck neck;
     TissueMotion motion;
+    /// In the world frame, m/s^2; empty: see Face::set_gravity().
     std::optional<Vec3> gravity{JawDynamics::upright_gravity()};
     Motion how = Motion::kDynamic;
     long done = 0;         ///< substeps since start()
@@ -72,17 +74,17 @@ struct FaceImpl {
     FaceImpl(const FaceImpl&) = delete;  // members refer to one another
     FaceImpl& operator=(const FaceImpl&) = delete;
 
-    /// Returns the drive with one excitation per column. A drive as constructed has none: no muscle is active.
+    /// Returns the drive with one excitation per column: zeros if the drive has no excitations.
     track::Drive complete(track::Drive drive) const;
     /// Returns the activation that a constant drive leads to, per column.
     Eigen::VectorXd steady_activation(const track::Drive& drive) const;
-    /// Returns gravity in the head frame, m/s^2; that of the rest shape if gravity is off.
+    /// Returns gravity in the head frame, m/s^2. If `gravity` is empty, it is that of the upright head.
     Vec3 gravity_at(const track::Drive& drive) const;
     /// Returns the part of gravity that the rest shape does not contain, m/s^2.
     Vec3 weight_at(const track::Drive& drive) const;
     BoundaryState boundary_state(const Eigen::VectorXd& activation,
                                  const track::Drive& drive) const;
-    /// Moves bones, lids and air to where the drive places them, and x with the bones.
+    /// Sets bones, lids and mouth pressure as the drive says, and moves the nodes x with the bones.
     void set_boundary_conditions(Points& x, const Eigen::VectorXd& activation,
                                  const track::Drive& drive);
     void set_boundary_conditions(const Eigen::VectorXd& activation, const track::Drive& drive);
@@ -91,16 +93,16 @@ struct FaceImpl {
     StepStats substep(const DriveAt& drive_at);
     StepStats solve_equilibrium(const Eigen::VectorXd& activation, const track::Drive& drive,
                                 const StaticOptions& options);
-    /// Returns the state as an equilibrium. Throws std::logic_error when muscles move the jaw.
+    /// Returns the current state as a pose of `equilibrium`. Throws std::logic_error when muscles move the jaw.
     Equilibrium::Pose equilibrium_pose() const;
 
-    /// Returns how many substeps lead to t, as a real number. A time that is a substep but for rounding gives a whole number.
+    /// Returns t_s / length of a substep. A result that differs from a whole number only by rounding errors is rounded.
     double substeps_until(double t_s) const;
-    /// Returns where t lies between the last two substeps, 0..1.
+    /// Returns where t_s lies between the last two substeps, 0..1.
     double fraction_of_step(double t_s) const;
-    /// Interpolates between the last two substeps: drives are interpolated, not the bones and lids they move.
+    /// Interpolates between the last two substeps. Drives are interpolated; bones and lids follow from the interpolated drive.
     State between(double fraction) const;
-    /// Returns the nodes as they are shown, n x 3, m. Substeps leave surfaces in each other, equilibria hardly do.
+    /// Returns the nodes as they are shown, n x 3, m: penetrations that a substep has left are resolved. Equilibria hardly have any.
     Points shown(const State& state) const;
     FacePose pose(double fraction) const;
     FacePose pose_of(const State& state) const;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Estimates skull and mandible of a head from its skin: the bones of the standard head are warped by the landmarks and cut back to
-/// where the tissue over them is as thick as the rig's table says (means of Stephan and Simpson 2008, and later).
+/// Estimates the skull and the mandible of a head from its skin. The bones of the standard head are warped by the landmarks. Then they are
+/// cut back to where the tissue over them is as thick as the rig's table says (means of Stephan and Simpson 2008, and later).
 ///
-/// For display only. The bone of the simulation is the layer of deep nodes in tissue_mesh.h, with the same thickness.
+/// The estimate is for display only. The bone of the simulation is the layer of deep nodes in tissue_mesh.h, with the same thickness of
+/// tissue.
 #pragma once
 
 #include <vector>
@@ -14,20 +15,22 @@
 
 namespace risorius::face {
 
+/// The surface of a bone.
 struct BoneSurface {
     Points vertices;      ///< V x 3, m, head frame, at rest
     Triangles triangles;  ///< counter-clockwise from outside
-    std::vector<double>
-        open;  ///< V, 0..1: ambient visibility, the fraction of the surroundings that other bone does not hide
+    /// V, 0..1, ambient visibility: the fraction of the surroundings that bone does not hide.
+    std::vector<double> open;
 };
 
+/// The two bones.
 struct Skull {
     BoneSurface cranium;   ///< with the upper jaw
-    BoneSurface mandible;  ///< at rest; the mandible's motion starts here
+    BoneSurface mandible;  ///< at rest; FacePose::mandible moves it
 };
 
-/// Extracted from a grid of `step_mm` at atlas size; takes some seconds at the usual step. Works on any placed head. The teeth are those
-/// of the head's mesh, if there are any.
+/// Extracts the surfaces from a grid with the spacing `step_mm`, mm, at the size of the standard head. It takes some seconds at the default
+/// spacing. The teeth are those of the head's mesh, if there are any.
 Skull estimate_skull(const rig::Head& head, const rig::RigDescription& rig, double step_mm = 1.5);
 
 }  // namespace risorius::face

@@ -2,9 +2,13 @@
 /// \file
 /// The muscles of jaw and hyoid: Hill-type muscles along lines of action between skull, mandible and hyoid.
 ///
-///   L   length of the path, m        tendons rigid: fibre along the path L - slack, l = sqrt((L - slack)^2 + (l0 sin alpha)^2)
-///   T = F0 [ a fl(l_n) fv(l') + fp(l) + b l' ],  l' = (l - l_n) / (h vmax l0)   (l_n: start of the step; see musculotendon.h)
-/// l0 and slack of the table are scaled together, so that the fibres of every head have the table's relative length at rest.
+///   L    length of the path from origin to insertion, m       slack   length of the rigid tendon, m
+///   l    length of the fibre: l = sqrt((L - slack)^2 + (l0 sin alpha)^2),   l0 optimal length, alpha pennation angle
+///   T = F0 [ a fl(l_n) fv(l') + fp(l) + b l' ],  l' = (l - l_n) / (h vmax l0)
+///   T    tension, N      F0   maximum isometric force, N     a   activation      l_n  length at the start of the step
+///   h    step, s         vmax maximum speed, l0 per s        b   damping         fl, fv, fp  curves, see musculotendon.h
+///
+/// l0 and slack of the table are scaled by one factor per muscle, so that fibres have the table's l / l0 at rest in every head.
 #pragma once
 
 #include <set>
@@ -19,29 +23,32 @@
 
 namespace risorius::face {
 
-/// Factor on the force of the table, which assumes 40 N/cm2 for all muscles. With that the incisors would bite with 540 N, with this
-/// factor with 350 N; 150 to 400 N are measured.
+/// Factor on the forces of the table, which assume a stress of 40 N/cm2 in all muscles. With the table alone the incisors would bite with
+/// 540 N; with this factor they bite with 350 N. Measured values are 150 to 400 N.
 inline constexpr double kJawForceFraction = 0.65;
-/// Passive stiffness of relaxed jaw muscles: 1.5 % of F0 at 1.5 times the length (Peck et al. 2000). With more, no jaw could open wide.
+/// Shape of the passive curve of relaxed jaw muscles: the passive force is 1.5 % of F0 at 1.5 times the length (Peck et al. 2000). Stiffer
+/// muscles would not let the jaw open wide.
 inline constexpr double kJawPassiveStrain = 2.0;
 
+/// One side of a muscle of jaw or hyoid on one head.
 struct JawMuscle {
     struct Point {
-        Vec3 rest;
+        Vec3 rest;                  ///< m, head frame
         rig::PathPoint::Body body;  ///< skull, mandible or hyoid
     };
     std::string id;
     Side side = Side::kLeft;
     int column = 0;  ///< of the activation vector
-    /// A solid pulls in its place; only its tone at rest is left, since without it the jaw would hang in another position.
+    /// A volume muscle pulls in its place. Only its tone at rest is kept, since without it the jaw would rest in another position.
     bool tone_only = false;
     double f0_n = 0, optimal_m = 0, slack_m = 0, thickness_m = 0, max_speed_m_s = 0;
     std::vector<Point> path;
 };
 
+/// All jaw and hyoid muscles of one head. `hyoid` is the displacement of the hyoid from rest, m.
 class JawMuscles {
   public:
-    /// Muscles of the groups jaw and hyoid; `solids` names those that keep only their tone.
+    /// Takes the muscles of the groups jaw and hyoid from the rig. `solids` names those that keep only their tone.
     JawMuscles(const rig::Head& head, const rig::RigDescription& rig,
                const std::set<std::string>& solids);
 
@@ -53,16 +60,17 @@ class JawMuscles {
     std::vector<Drive> drive(const JawPose& pose, const Vec3& hyoid,
                              const Eigen::VectorXd& activation) const;
 
-    /// Adds E, its gradient and a positive approximation of its second derivative for a step of length h.
+    /// Returns the energy E, J, whose derivative by the length of each path is T, for a step of length h, s. Adds its gradient and a
+    /// positive approximation of its second derivative.
     double add_energy(const std::vector<Drive>& drive, double h, const JawPose& pose,
                       const Vec3& hyoid, JawVector& gradient, JawMatrix& hessian) const;
 
-    /// Work that isometric contraction at these activations could do, J: sum of a F0 l0 (integral of fl).
+    /// Returns the active energy at these activations, J: the sum of a F0 l0 (integral of fl).
     double active_energy_j(const JawPose& pose, const Vec3& hyoid,
                            const Eigen::VectorXd& activation) const;
 
     const std::vector<JawMuscle>& list() const { return muscles_; }
-    /// Isometric tension of a muscle at an activation, N: F0 [a fl + fp].
+    /// Returns the isometric tension of a muscle (index into list()) at an activation, N: F0 [a fl + fp].
     double isometric_n(std::size_t muscle, const JawPose& pose, const Vec3& hyoid,
                        double activation) const;
     double fibre_length_m(std::size_t muscle, const JawPose& pose, const Vec3& hyoid) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Locates points in the tissue: the skin above a point, and the tetrahedron that holds it.
+/// Locates points in the tissue: the skin above a point, and the tetrahedron that contains it.
 #pragma once
 
 #include "risorius/core/types.h"
@@ -11,19 +11,22 @@
 
 namespace risorius::face {
 
+/// Queries on the tissue mesh at rest. Positions are in the head frame, m.
 class TissueLocator {
   public:
     /// Keeps references to its arguments.
     TissueLocator(const Shell& shell, const TissueMesh& mesh);
 
-    /// Skin point, thickness and outward direction of the tissue column through a point on, over or under the skin.
+    /// The column of tissue between skin and bone: its skin point, outward direction (unit) and thickness, m.
     struct Column {
         Vec3 skin, outward;
         double thickness;
     };
+    /// Returns the column at the point of the skin that is nearest to p.
     Column column_at(const Vec3& p) const;
 
-    /// Weights of p in the tetrahedron that holds it, or in the nearest one when p lies outside of the tissue.
+    /// Returns the four nodes and the barycentric weights of p in the tetrahedron that contains it. If p lies outside the tissue, it takes
+    /// a near tetrahedron, with the weights limited to 0..1.
     muscle::FibrePoint embed(const Vec3& p) const;
 
   private:

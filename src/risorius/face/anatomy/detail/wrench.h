@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Sums forces on a rigid body.
+/// Force and torque on a rigid body, as a sum of forces at points.
 #pragma once
 
 #include "risorius/core/types.h"
@@ -12,6 +12,7 @@ struct Wrench {
     Vec3 force_n = Vec3::Zero();
     Vec3 torque_nm = Vec3::Zero();
 
+    /// Adds a force, N, that acts at `place`, m.
     void add(const Vec3& force, const Vec3& place) {
         force_n += force;
         torque_nm += place.cross(force);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Muscles of expression as bundles of fibres in the tissue, placed from the bands of the atlas.
+/// Places the muscles of expression in the tissue as bundles of fibres, along the bands of the rig's muscle table.
 #pragma once
 
 #include <optional>
@@ -15,6 +15,7 @@
 
 namespace risorius::face {
 
+/// The rigid bodies that muscles and contacts can be attached to.
 enum BodyIndex { kSkullBody = 0, kMandibleBody = 1, kBodies = 2 };
 
 /// The parallel fibres of one band of a muscle.
@@ -27,13 +28,15 @@ struct FibreBundle {
     bool origin_on_bone = false, insertion_on_bone = false;
 };
 
+/// All bundles of a face.
 struct MusclePlacement {
-    std::vector<muscle::FibrePoint> points;
+    std::vector<muscle::FibrePoint> points;  ///< of all fibres
     std::vector<muscle::Fibre> fibres;
-    std::vector<std::vector<Vec3>> paths;  ///< path of each fibre at rest, for drawing
+    std::vector<std::vector<Vec3>> paths;  ///< path of each fibre at rest, m, for drawing
     std::vector<FibreBundle> bundles;
 };
 
+/// Leaves out volume muscles.
 MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& rig,
                               const Shell& shell, const TissueMesh& mesh);
 

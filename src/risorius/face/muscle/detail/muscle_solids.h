@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Volume muscles of a face: grid solids with fibres and tendons under the skin, part of the same implicit solve.
+/// Volume muscles of a face: solids under the skin, each a grid of hexahedral cells with fibres and tendons. They are part of the same
+/// implicit solve as the tissue.
 ///
-///   unknowns  x = [tissue nodes; nodes of all solids]           one row each
+///   unknowns  x = [nodes of the tissue; nodes of all volume muscles], one row each, m
 ///   E = cells (tissue/cell_solid.h) + chains (muscle/chain_set.h) + 1/2 k |p_tissue - p_muscle|^2 + 1/2 kn (d.n)^2
 ///
-/// Nodes on bone move with it. Springs bind a node inside the tissue to the point of the tissue where it lies, and deep tissue on a
-/// muscle to the point of the muscle below it; so both move each other. Deep nodes of jaw muscles rest on their bone. The tissue around
-/// a muscle keeps its own stiffness, which is much smaller: that part of space is counted twice.
+/// The third term is the sum over the bindings, springs of stiffness k, N/m. The last is the sum over the nodes that rest on bone: d is
+/// the displacement from the place on the bone, m, n the outward direction, kn a stiffness, N/m.
 ///
-/// The preconditioner is the inverse of [H B; B^T S + B^T H^-1 B]
+/// Nodes on bone move with it. A binding ties a muscle node inside the tissue to the point of the tissue where it lies, or deep tissue to
+/// the point of the muscle below it. So tissue and muscles move each other. Deep nodes of jaw muscles rest on their bone. Tissue and muscle
+/// overlap: the tissue there keeps its own stiffness, which is much smaller than that of the muscle.
+///
+/// The preconditioner is the inverse of the block matrix [H B; B^T S + B^T H^-1 B], with the nodes of the muscles first:
 /// - H: second derivative of the muscles, bindings included; B: the bindings between muscles and tissue
 /// - S: a scalar matrix over the nodes of the tissue
 #pragma once
@@ -40,12 +44,15 @@ enum class Curvature;
 
 namespace risorius::face {
 
+/// One wrench per body.
 using Wrenches = std::array<Wrench, kBodies>;
 
+/// All volume muscles of a face: their energy, their part of the preconditioner, and measures. A part is one side of a muscle.
 class MuscleSolids {
   public:
-    /// `attachments` are those of the tissue. Attachments on a volume muscle are released from the bone. Throws Error with the name of
-    /// the muscle when it cannot be placed in this head.
+    /// `attachments` are those of the tissue. Where a volume muscle lies between tissue and bone, the tissue is bound to the muscle and the
+    /// stiffness of its attachment is removed. Throws Error with the name of the muscle when it cannot be placed
+    /// in this head.
     MuscleSolids(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
                  const Shell& shell, const TissueMesh& mesh, std::vector<Attachment>& attachments);
 
@@ -59,16 +66,16 @@ class MuscleSolids {
     int parts() const { return static_cast<int>(parts_.size()); }
     bool is_solid(const std::string& muscle) const;
 
-    /// Sets the motions of skull and mandible from rest.
+    /// Sets the motions of skull and mandible from rest, at the start of a step.
     void set_bodies(const std::array<Rigid, kBodies>& bodies);
     /// The same within a step: the directions in which bone supports muscles stay those of the start of the step.
     void move_bodies(const std::array<Rigid, kBodies>& bodies);
-    /// Moves the nodes x that follow the mandible, when it moves from `from` to `to`. Nodes on bone are placed exactly.
+    /// Moves the nodes x that follow the mandible, when its motion from rest changes from `from` to `to`. Nodes on bone are placed exactly.
     void carry(Points& x, const Rigid& from, const Rigid& to) const;
-    /// Adds dE/d(motion of the mandible) of the nodes that carry() moves. `gradient` is that by the nodes, N.
+    /// Adds to `sum` dE/d(motion of the mandible) of the nodes that carry() moves. `gradient` is dE/dx, N.
     void add_riding(const Rigid& mandible, const Points& gradient, Wrench& sum) const;
 
-    /// Forgets all factors, so that the next step depends on its arguments alone.
+    /// Forgets all factorised matrices, so that the next step depends on its arguments alone.
     void forget();
     /// Prepares the minimisation of a step of length h, s, that starts at x.
     void begin_step(double h, const Points& x, const Eigen::VectorXd& activation);
@@ -78,18 +85,19 @@ class MuscleSolids {
     double add_energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient,
                       Wrenches* on_bodies = nullptr) const;
 
-    /// Prepares static energies at and around x: no damping.
+    /// Prepares static energies, without damping, at and around x.
     void begin_rest(const Points& x);
     /// Adds the second derivative of the static energy, N/m, over the rows of x.
     void add_hessian(const Points& x, const Eigen::VectorXd& activation, solve::Curvature curvature,
                      solve::HessianBuilder& hessian) const;
 
-    /// Adds a bound of the stiffness with which the muscles hold the tissue, over the nodes of the tissue.
+    /// Adds an upper bound of the stiffness with which the muscles hold the nodes of the tissue.
     void add_metric(solve::MetricBuilder& builder) const;
 
-    /// Applies the preconditioner to b over all unknowns. `tissue` is the factor over the nodes of the tissue.
+    /// Applies the preconditioner to b, one row per unknown, and writes y. `tissue` is the factor of the matrix of the tissue's nodes.
     void precondition(const solve::SparseCholesky& tissue, const Points& b, Points& y) const;
 
+    /// Multiplies the maximum isometric force of a muscle, both sides.
     void scale_strength(const std::string& muscle, double factor);
     double mean_stretch(const std::string& muscle, const Points& x,
                         const Eigen::VectorXd& activation) const;
@@ -97,13 +105,14 @@ class MuscleSolids {
     std::vector<muscle::ChainSet::State> chain_states(const std::string& muscle, Side side,
                                                       const Points& x,
                                                       const Eigen::VectorXd& activation) const;
+    /// Returns one entry per part.
     std::vector<SolidFigures> figures(const Points& x, const Eigen::VectorXd& activation) const;
     double max_volume_error(const Points& x) const;  ///< maximum of |volume / rest volume - 1|
     /// Adds smooth surfaces of all muscles for drawing. place_surfaces() then writes their rows of `vertices`, m.
     void add_surfaces(MuscleSurfaces& surfaces);
     void place_surfaces(const Points& x, Points& vertices) const;
 
-    /// A spring between the tissue and a muscle that is held at x: 1/2 k |sum w_i x_i - target|^2 over nodes of the tissue.
+    /// A spring from the tissue to a point of a muscle that does not move: 1/2 k |sum w_i x_i - target|^2. x_i are nodes of the tissue.
     struct Spring {
         int nodes[4]{};
         double weights[4]{};
@@ -111,6 +120,7 @@ class MuscleSolids {
         Vec3 target = Vec3::Zero();
         double stiffness_n_per_m = 0;
     };
+    /// Adds the bindings as such springs, with the muscles held at x.
     void add_springs(const Points& x, std::vector<Spring>& springs) const;
 
   private:
@@ -121,24 +131,24 @@ class MuscleSolids {
         std::unique_ptr<solve::HessianBuilder> hessian;  ///< over its own nodes
         Points rest, start;
         mutable Points x, gradient;
-        Eigen::SparseMatrix<double, Eigen::RowMajor>
-            surface;  ///< points of the drawn surface by nodes
+        /// Weights of the nodes in each point of the drawn surface.
+        Eigen::SparseMatrix<double, Eigen::RowMajor> surface;
         Eigen::Index first_vertex = 0;
     };
     struct Binding {
         int tissue[4];
         double tissue_weight[4];
         int tissue_count;
-        int solid[8];  ///< nodes of the set
+        int solid[8];  ///< nodes of the volume muscles
         double solid_weight[8];
         int solid_count;
         double stiffness_n_per_m;
         Vec3 apart_at_rest = Vec3::Zero();  ///< offset of a node just outside of the tissue, m
     };
-    /// Parts that share nodes, and their block of the preconditioner as last factored.
+    /// Parts that share nodes, and their block of the preconditioner as it was last factorised.
     struct Group {
         std::vector<int> part;
-        std::vector<int> node;              ///< nodes of the set
+        std::vector<int> node;              ///< its nodes of the volume muscles
         std::vector<std::vector<int>> row;  ///< per part, index into `node` of each of its nodes
         std::vector<std::size_t> binding;   ///< bindings whose muscle end is in the group
         std::vector<std::size_t> support;
@@ -159,16 +169,16 @@ class MuscleSolids {
     void refresh(Group& group, double h, const Points& x, const Eigen::VectorXd& activation);
     void solve_solids() const;  ///< solid_y_ = H^-1 solid_b_
 
-    int first_ = 0;  ///< row of the first node of the set in x
+    int first_ = 0;  ///< row of the first node of the volume muscles in x
     SolidPlacement placement_;
-    Points rest_, bone_;  ///< bone_: present positions of nodes on bone
+    Points rest_, bone_;  ///< bone_: current positions of nodes on bone
     Rigid mandible_ = Rigid::Identity();
     Eigen::VectorXd mass_;
     std::vector<Part> parts_;
     std::vector<Binding> bindings_;
     std::unique_ptr<tissue::ZeroLengthSprings> supports_;
     std::vector<int> support_node_;
-    std::vector<int> held_tissue_;  ///< tissue nodes that do not move by themselves
+    std::vector<int> held_tissue_;  ///< tissue nodes that are not unknowns
     double step_s_ = 0;
 
     std::vector<Group> groups_;

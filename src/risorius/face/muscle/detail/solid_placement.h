@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Places volume muscles in a head: grids of nodes along the paths of the muscle table, and what they are attached to.
+/// Places volume muscles in a head: grids of nodes along the paths of the muscle table, and the bone or soft tissue at their ends.
 ///
-/// The m axis of a grid runs along the fibres from origin to insertion, n across, o from bone to skin. Several paths form one sheet. The
+/// The axes of a grid are m along the fibres from origin to insertion, n across the fibres, and o from bone to skin.
+/// Several paths form one sheet. The
 /// upper and the lower half of orbicularis oris share their nodes at the corners of the mouth and form one ring.
 #pragma once
 
@@ -18,23 +19,25 @@
 
 namespace risorius::face {
 
+/// A node of a volume muscle.
 struct SolidNode {
-    Vec3 rest = Vec3::Zero();   ///< m
+    Vec3 rest = Vec3::Zero();   ///< m, head frame
     double jaw_fraction = 0;    ///< fraction of the mandible's motion that its bone follows
     bool on_bone = false;       ///< attached to bone
-    bool soft_end = false;      ///< where the muscle takes hold of soft tissue
+    bool soft_end = false;      ///< at an end where the muscle inserts into soft tissue
     bool against_bone = false;  ///< kept off the bone along `outward`
     Vec3 outward = Vec3::UnitZ();
 };
 
+/// One side of a volume muscle.
 struct SolidPart {
     const rig::Muscle* muscle = nullptr;
     const rig::SolidMuscle* solid = nullptr;
     Side side = Side::kLeft;
     int column = 0;   ///< of the activation vector
-    double f0_n = 0;  ///< of the whole part
+    double f0_n = 0;  ///< maximum isometric force of the whole part, N
     tissue::GridShape grid;
-    std::vector<int> node;  ///< of each grid node, in SolidPlacement::nodes
+    std::vector<int> node;  ///< index in SolidPlacement::nodes of each grid node
 };
 
 struct SolidPlacement {
@@ -42,7 +45,8 @@ struct SolidPlacement {
     std::vector<SolidPart> parts;
 };
 
-/// Pointers in the parts are into `rig`. Throws Error naming the muscle when a cell of it has no volume on this head.
+/// The parts point into `rig`, which must outlive them. Throws Error with the name of the muscle when one of its cells has no volume on
+/// this head.
 SolidPlacement place_solids(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
                             const TissueLocator& locator);
 

@@ -10,17 +10,17 @@
 
 namespace risorius::face {
 
-/// Positions in the head frame; the motion of the head itself is already applied to the vertices.
+/// A pose. Its vertices are in the world frame, which equals the head frame of the head at rest: they include the motion of the head.
 struct FacePose {
-    Points vertices;                   ///< V x 3, m, the mesh's own order
-    std::array<Mat3, 2> eye_rotation;  ///< world from rest, left and right
-    Points
-        fold_depth;  ///< V x 3 or no rows, depth of wrinkles that are finer than the mesh, m, see skin_layer.h
-    Rigid head = Rigid::Identity();
-    double jaw_open = 0;  ///< opening of the jaw / opening at jaw_open = 1
-    Rigid mandible =
-        Rigid::Identity();  ///< motion of the mandible from rest, before the motion of the head
-    JawPlace jaw;
+    Points vertices;                   ///< V x 3, m, world frame, in the order of the mesh
+    std::array<Mat3, 2> eye_rotation;  ///< from rest, in the world frame, left and right
+    /// V x 3, m, one column per slot of the wrinkle lines: depth of the wrinkles that are finer than the mesh. No rows without wrinkles.
+    Points fold_depth;
+    Rigid head = Rigid::Identity();  ///< motion of the head from rest, in the world frame
+    double jaw_open = 0;  ///< opening of the jaw / opening when the channel jaw_open is 1
+    /// Motion of the mandible from rest, in the head frame.
+    Rigid mandible = Rigid::Identity();
+    JawPlace jaw;              ///< position of the jaw relative to the skull
     double tooth_force_n = 0;  ///< total bite force of all teeth, N; 0 unless muscles move the jaw
 };
 

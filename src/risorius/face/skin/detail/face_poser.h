@@ -24,14 +24,15 @@
 
 namespace risorius::face {
 
-/// Inputs of a pose.
+/// The state from which a pose is computed.
 struct FaceMoment {
-    const Points& x;                    ///< nodes of the tissue, m
-    const Eigen::VectorXd& activation;  ///< of each column of the rig's channels
+    const Points& x;                    ///< nodes of the tissue, n x 3, m
+    const Eigen::VectorXd& activation;  ///< per column of the rig's channels, 0..1
     const track::Drive& drive;
-    Rigid mandible;
+    Rigid mandible;  ///< motion from rest
 };
 
+/// Computes poses of one head.
 class FacePoser {
   public:
     /// Keeps references; all arguments must outlive it.
@@ -41,26 +42,26 @@ class FacePoser {
     FacePoser(const FacePoser&) = delete;
     FacePoser& operator=(const FacePoser&) = delete;
 
-    /// State of the left and the right lid, and rotation of the eyes in the head.
+    /// Return the state of the lids, and the rotation of the eyes in the head, left and right.
     std::array<LidPose, 2> lids(const Eigen::VectorXd& activation,
                                 const track::Drive& drive) const {
         return {lid(0, activation, drive), lid(1, activation, drive)};
     }
     std::array<Mat3, 2> gaze(const track::Drive& drive) const;
 
-    /// The pose with the jaw where the channels put it.
+    /// Returns the pose of a moment.
     FacePose pose(const FaceMoment& moment) const { return pose(moment, Folds::kFormed, nullptr); }
-    /// Applies the drive's motion of eyes and head to a face given by `vertices`; no folds are added.
+    /// Makes a pose from `vertices`, V x 3, m, head frame: applies the motion of eyes and head of the drive. Adds no folds.
     FacePose posed(Points vertices, const track::Drive& drive, const Rigid& mandible) const;
-    /// Depth of folds on such a face, from the strain of its own skin.
+    /// Sets FacePose::fold_depth of such a pose from the strain of its skin.
     void fold(FacePose& pose, const Eigen::VectorXd& activation) const {
         pose.fold_depth = skin_.fold_depth(activation, pose.vertices);
     }
-    /// Transpose of the pose: converts a gradient with respect to the vertices (V x 3) to one with respect to the nodes of the tissue. Folds
-    /// are left out.
+    /// Applies the transpose of the derivative of pose(): converts a gradient by the vertices, V x 3, to the gradient by the nodes of the
+    /// tissue, n x 3. Folds are left out.
     Points pull_back(const FaceMoment& moment, const Points& slope) const;
 
-    /// Applies the motion of the head to soft points, as in rigid_followers.h.
+    /// Applies the motion of the head to soft points, see RigidFollowers::turn_with_head().
     void turn_with_head(const Rigid& head, const Points& rest, Points& points) const {
         follow_.turn_with_head(head, rest, points);
     }
@@ -70,9 +71,10 @@ class FacePoser {
     LidPose lid(int side, const Eigen::VectorXd& activation, const track::Drive& drive) const;
     Points skin_displacement(const Points& x) const;
     Points pull_through(const FollowDrive& drive, const Points& surface, const Points& slope) const;
-    /// What the skin layer adds to the motion of the tissue. pull_back() leaves it out.
+    /// Whether the pose contains what the skin layer adds to the motion of the tissue. pull_back() leaves it out.
     enum class Folds { kFormed, kLeftOut };
-    /// `pulled`, when given: a gradient with respect to the vertices, converted to that of the skin before anything follows it.
+    /// `pulled`, if given, is a gradient by the vertices. It is converted to the gradient by the skin vertices as the tissue moves them,
+    /// before the other parts follow.
     FacePose pose(const FaceMoment& moment, Folds folds, Points* pulled) const;
 
     const rig::Head& head_;

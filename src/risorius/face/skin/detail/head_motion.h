@@ -9,16 +9,17 @@
 
 namespace risorius::face {
 
-/// Motion of the head from rest that the channels ask for: a rotation about the atlanto-occipital joint, then a translation.
+/// Returns the motion of the head from rest that the channels ask for: a rotation about the atlanto-occipital joint, then a translation.
 Rigid head_motion(const rig::Head& head, const track::Drive& drive);
 
+/// The fraction of the head's motion that each point of head and neck follows.
 class Neck {
   public:
     explicit Neck(const rig::Head& head);
 
-    /// Fraction of the head's motion that a soft point follows, 0..1.
+    /// Returns the fraction of the head's motion that a soft point with the rest position `rest` (m) follows, 0..1.
     double fraction(const Vec3& rest) const;
-    /// That fraction of the motion: part of the rotation about the same pivot, part of the translation.
+    /// Returns a fraction of a motion of the head: this fraction of the rotation about the same pivot, and of the translation.
     Rigid part(const Rigid& head, double fraction) const;
 
   private:

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Keeps the lining of the mouth behind the skin in front of it. Skin and lining move independently: the tissue moves the skin, and
-/// skin_binding.h moves the lining. Where lips turn outwards, the lining would come through the skin.
+/// Keeps the lining of the mouth behind the skin in front of it. The two move independently: the tissue moves the skin, and the harmonic
+/// extension (skin_binding.h) moves the lining. So where lips turn outwards, the lining would come through the skin.
 ///
-///   x   a point of the lining      q   the point of the skin nearest to it at rest     n   outwards there     d = |q - x|
-///   x moves by -n max(0, c - (q - x) . n),  c = min(d / 2, 1.5 mm):  nothing at rest
+///   x   a point of the lining      q   the point of the skin that is nearest to it at rest     n   outward normal of the skin at q
+///   d = |q - x| at rest            c = min(d / 2, 1.5 mm)
+///   x moves by -n max(0, c - (q - x) . n). At rest it does not move.
 #pragma once
 
 #include <array>
@@ -16,13 +17,15 @@
 
 namespace risorius::face {
 
+/// The points of the lining of one head that lie behind skin.
 class MouthLining {
   public:
     explicit MouthLining(const rig::Head& head);
 
-    /// V x 3, m, in the frame of the head.
+    /// Moves the points of the lining in `vertices`, V x 3, m, head frame.
     void stay_behind(Points& vertices) const;
 
+    /// Returns the number of these points.
     int points() const { return static_cast<int>(kept_.size()); }
 
   private:
@@ -33,8 +36,8 @@ class MouthLining {
         double clearance_m;
     };
     std::vector<Kept> kept_;
-    std::vector<std::pair<int, int>>
-        alike_;  // a vertex, and the vertex at the same place that stands for it
+    /// A vertex, and the vertex at the same place that it copies.
+    std::vector<std::pair<int, int>> alike_;
 };
 
 }  // namespace risorius::face

@@ -2,14 +2,15 @@
 /// \file
 /// The cords of the neck: where platysma spans the hollow under the jaw, its borders lift from the throat as they contract.
 ///
-///   p(s)   a border on the skin, from collar bone to jaw     n   outwards      T = a F_b   tension, a the activation
-///   h(s)   height of the border over the throat: a string on an elastic bed of fat and fascia of stiffness k per length,
+///   p(s)   a border on the skin, from collar bone to jaw; s is the length along it, m       n   outward normal
+///   T = a F_b   tension, N; a is the activation, F_b the force of the border at a = 1
+///   h(s)   height of the border over the throat, m, as that of a string on an elastic bed of fat and fascia with stiffness k, N/m^2:
 ///
 ///     T h'' - k h = -T max(0, p'' . n),    h = 0 at both ends
 ///
-/// The border rises where it spans a hollow and stays where it curves round the jaw. Across the border the height falls off as
-/// 1 / cosh(y / w), the shape of a stretched sheet with bending stiffness. The part of the ridge that is finer than the mesh goes to the
-/// renderer as a wrinkle line of negative depth. At a = 0 nothing moves.
+/// The border rises where it spans a hollow and stays where it curves round the jaw. At the distance y from the
+/// border the height is h / cosh(y / w) with the width w, the shape of a stretched sheet with bending stiffness. The part of the
+/// ridge that is finer than the mesh goes to the renderer as a wrinkle line of negative depth. At a = 0 nothing moves.
 ///
 /// The medial borders are the most prominent, posterior bands less: de Castro 1980, Plast. Reconstr. Surg. 66(6), 833-841.
 #pragma once
@@ -24,25 +25,26 @@
 
 namespace risorius::face {
 
-/// Heights h, m, of a string under `tension_n` through `stations` (two or more, `spacing_m` apart) with the outward direction of each,
-/// on a bed of stiffness `bed_n_per_m2`.
+/// Returns the height h at each of `stations`, m: two or more points of the string, `spacing_m` apart. `outward` has the outward direction
+/// (unit) of each. `bed_n_per_m2` is k.
 std::vector<double> string_heights(const std::vector<Vec3>& stations,
                                    const std::vector<Vec3>& outward, double spacing_m,
                                    double tension_n, double bed_n_per_m2);
 
+/// The cords of one head.
 class PlatysmaCords {
   public:
-    /// Has no cords on a rig without platysma, or when the mesh ends above the neck.
+    /// There are no cords on a rig without platysma, or when the mesh ends above the neck.
     PlatysmaCords(const rig::Head& head, const rig::RigDescription& rig);
 
-    /// Adds a wrinkle line along each border where its slot is free. Without this call, raise() gives no depths.
+    /// Adds a wrinkle line along each border, at vertices where the slot of the line is free. Without this call, raise() gives no depths.
     void mark(WrinkleLines& lines);
 
-    /// Displaces `vertices` (V x 3, m) by the cords at this `activation` (one column per muscle and side). Adds what is finer than the mesh
-    /// to `depth` (as WrinkleLines, or no rows).
+    /// Displaces `vertices` (V x 3, m) by the cords at this `activation` (per column of the rig, 0..1). Adds the part of the ridges that is
+    /// finer than the mesh to `depth` (V x 3, m, one column per slot, or no rows).
     void raise(const Eigen::VectorXd& activation, Points& vertices, Points& depth) const;
 
-    /// Points of the borders at rest, head frame, m. For tests and pictures.
+    /// Returns the points of each border at rest, head frame, m. For tests and pictures.
     std::vector<std::vector<Vec3>> lines() const;
 
   private:
@@ -55,7 +57,7 @@ class PlatysmaCords {
         int vertex;
         double station;   ///< place along the border
         double fraction;  ///< fraction of the height at that place
-        double across;    ///< from the border, > 0 to the left, m
+        double across;    ///< distance from the border, m, > 0 to the left
         double ridge;     ///< depth of the line / height of the cord
     };
     struct Cord {

@@ -17,28 +17,32 @@
 
 namespace risorius::face {
 
+/// What moves these parts.
 struct FollowDrive {
-    Rigid mandible = Rigid::Identity();
-    std::array<Mat3, 2> gaze;
+    Rigid mandible = Rigid::Identity();  ///< motion from rest, head frame
+    std::array<Mat3, 2> gaze;            ///< rotation of each eye in the head
     std::array<LidPose, 2> lid;
-    double tongue_out = 0, tongue_up = 0;
-    Rigid head = Rigid::Identity();
+    double tongue_out = 0, tongue_up = 0;  ///< see TongueDrive
+    Rigid head = Rigid::Identity();        ///< motion from rest
 };
 
+/// The parts of one head that follow.
 class RigidFollowers {
   public:
-    /// Attaches lashes to the skin through `binding`.
+    /// Attaches the lashes to the skin through `binding`.
     RigidFollowers(const rig::Head& head, const rig::RigDescription& rig,
                    const std::array<EyeLids, 2>& lids, SkinBinding& binding);
 
-    /// `vertices` (V x 3) with the skin already moved.
+    /// Moves the parts in `vertices` (V x 3, m), in which the skin has already moved, and then everything with the head.
     void apply(const FollowDrive& drive, Points& vertices) const;
 
-    /// Only the last steps, for vertices that something else has moved: turns the eyes by `gaze`, and moves everything with the head.
+    /// The last steps of apply() alone, for vertices that something other than the simulation has moved. turn_eyes() rotates the eyes by
+    /// `gaze`; turn_head() moves everything with the head.
     void turn_eyes(const std::array<Mat3, 2>& gaze, Points& vertices) const;
     void turn_head(const Rigid& head, Points& vertices) const;
 
-    /// Applies the motion of the head to soft points of head and neck, in place. `rest`: their places at rest, which decide how much they move.
+    /// Applies the motion of the head to soft points of head and neck, in place. `rest`: their positions at rest,
+    /// which decide what fraction of the motion they follow.
     void turn_with_head(const Rigid& head, const Points& rest, Points& points) const;
 
   private:
@@ -57,8 +61,8 @@ class RigidFollowers {
     Points rest_;
     std::vector<LidVertex> lid_vertices_;
     Tongue tongue_;
-    std::vector<std::pair<int, double>>
-        on_jaw_;  // a vertex, and its fraction of the mandible's motion
+    /// A vertex, and its fraction of the mandible's motion.
+    std::vector<std::pair<int, double>> on_jaw_;
     std::array<std::vector<int>, 2> eye_;
     std::vector<double> head_fraction_;  ///< V, fraction of the head's motion
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What the skin does in addition to the tissue: it evens out the motion of the coarse tissue (skin_surface.h), folds where it is
-/// compressed (wrinkles.h), and forms cords on the neck (platysma_cords.h). At rest it does nothing.
+/// Motion of the skin in addition to that of the tissue: the skin smooths the motion of the coarse tissue (skin_surface.h), folds where it
+/// is compressed (wrinkles.h), and forms cords on the neck (platysma_cords.h). At rest it does not move.
 #pragma once
 
 #include <array>
@@ -23,17 +23,20 @@
 
 namespace risorius::face {
 
+/// The skin of one head.
 class SkinLayer {
   public:
     SkinLayer(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
               const std::array<EyeLids, 2>& lids, const Shell& shell, const TissueMesh& mesh,
               const SkinBinding& binding);
 
-    /// `vertices` (V x 3, m) as the tissue carries them, with the activation of every muscle. Returns the depth of folds that are finer than
-    /// the mesh, V x 3, m, one column per slot of lines(); < 0 where lines stand out. No rows when wrinkles are off.
+    /// Moves `vertices` (V x 3, m) from where the tissue carries them to where the skin lies. `activation` has one entry per column of the
+    /// rig, 0..1. Returns the depth of folds that are finer than the mesh, V x 3, m, one column per slot of lines(); < 0 where lines stand
+    /// out. There are no rows when wrinkles are off.
     Points apply(const Eigen::VectorXd& activation, Points& vertices) const;
 
-    /// The depth of such folds on a skin that something else has moved, including what its mesh resolves.
+    /// Returns the depth of folds, in the same form, on a skin that something other than the simulation has moved. It is the whole depth,
+    /// also of folds that the mesh could show.
     Points fold_depth(const Eigen::VectorXd& activation, Points vertices) const;
 
     const WrinkleLines& lines() const { return lines_; }

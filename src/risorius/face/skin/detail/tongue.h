@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
 /// The tongue as a body that bends along its middle line. Its root is fixed, the rest moves with the mandible. It stretches forwards,
-/// raises or lowers its tip, and passes between teeth and lips, where it is flattened if there is little room.
+/// raises or lowers its tip, and passes between teeth and lips. Where there is little room between them, it is flattened.
 #pragma once
 
 #include <vector>
@@ -11,22 +11,24 @@
 
 namespace risorius::face {
 
+/// What moves the tongue.
 struct TongueDrive {
-    double out = 0;  ///< protrusion / its range, [0, 1]
-    double up = 0;   ///< of the tip: 1 raised, -1 lowered, [-1, 1]
+    double out = 0;  ///< protrusion / its range, 0..1
+    double up = 0;   ///< curl of the tip, -1..1; 1 raised, -1 lowered
     Rigid mandible = Rigid::Identity();
 };
 
+/// The tongue of one head.
 class Tongue {
   public:
-    /// `range_m`: how far the tip moves forwards at `out` = 1.
+    /// `range_m`: how far the tip moves forwards when TongueDrive::out is 1.
     Tongue(const rig::Head& head, double range_m);
 
     /// Moves the tongue's rows of `vertices`, in which the skin has already moved.
     void place(const TongueDrive& drive, Points& vertices) const;
 
     bool empty() const { return members_.empty(); }
-    /// The fraction of `drive.out` for which there is room between the teeth.
+    /// Returns the fraction of the protrusion for which there is room between the teeth, 0..1.
     double room(const TongueDrive& drive) const;
 
   private:
@@ -49,10 +51,10 @@ class Tongue {
     const rig::Head& head_;
     double range_m_, length_m_ = 0, thickness_m_ = 0;
     Line rest_;
-    std::vector<double> over_jaw_;  // by sample of the line
+    std::vector<double> over_jaw_;  // per sample of the line, fraction of the mandible's motion
     std::vector<Member> members_;
     Vec3 lower_edge_, upper_edge_;            // of the incisors
-    std::vector<int> lower_lip_, upper_lip_;  // skin at stoi, stos
+    std::vector<int> lower_lip_, upper_lip_;  // skin vertices at the landmarks stoi, stos
 };
 
 }  // namespace risorius::face

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Depth of the skin's folds along its wrinkle lines, from the skin's strain.
+/// Computes the depth of folds along the wrinkle lines of the skin from the strain of the skin.
 ///
-///   n   across the lines, in the rest surface        s = |F n|   stretch of the skin across them        c = 1 - s
-///   l   distance of the lines at rest, (1 - c) l now               f   phase, see wrinkle_lines.h
-///   A   depth          h = A d_k P(f),  P = sqrt(sin^2(pi f) + 0.2^2)   profile: narrow valleys, round ridges
-///   d_k = 1 + 0.4 sin(2.4 k)   variation between lines; k = round(f), the valley, so that d_k changes on ridges
+///   n   direction across the lines, in the rest surface       F   deformation gradient of the skin
+///   s = |F n|   stretch across the lines                      c = 1 - s   compression
+///   l   distance between lines at rest, m; now it is (1 - c) l                 f   phase, see wrinkle_lines.h
+///   A   depth, m       h = A d_k P(f)   height of the fold, m
+///   P = sqrt(sin^2(pi f) + 0.2^2)   profile: narrow valleys, round ridges
+///   d_k = 1 + 0.4 sin(2.4 k)   variation between lines; k = round(f) is the number of the valley, so d_k changes on the ridges
 ///
-/// Skin hardly shortens. Beyond an onset, its compression goes into the length of the folded profile:
-///   integral of sqrt(1 + h'^2) = 1 + e / (1 - c),    e = c - onset, from 0 on smoothly
+/// Skin hardly shortens. Beyond an onset, compression makes it fold, and the length along the folded profile is preserved:
+///   integral of sqrt(1 + h'^2) = 1 + e / (1 - c),    e = c - onset, with a smooth start at 0
+///
 /// c is averaged over about 3 mm (by a screened Poisson equation on the surface), so that it does not depend on the mesh. A crease folds
-/// as a whole: its c is averaged over 9 mm along it and over the strip beside it, and its onset is lower, since the line exists at rest.
+/// as a whole: its c is averaged over 9 mm along it and across the strip beside it. Its onset is lower, since the line exists at rest.
 /// Where the mesh is fine enough, folds displace its vertices; the renderer shows the rest of their depth. Permanent lines of old skin are
-/// as deep as under additional compression; they are shown only by the renderer and disappear when the skin is stretched.
+/// as deep as an additional compression would make them. Only the renderer shows them. They disappear when the skin is stretched.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,44 +31,49 @@ namespace risorius::face {
 
 double fold_profile(double phase);  ///< P
 double fold_height(double phase);   ///< h / A over the skin without folds
-double fold_excess(
-    double depth_ratio);  ///< length of the profile / its span - 1, for a wave of this depth / span
-double fold_depth_ratio(double excess);  ///< the inverse
-/// Compression that thickens skin without a fold. Folds set in smoothly over as much to either side; at rest there is none.
+/// Returns length of the profile / wavelength - 1, for a wave with this depth / wavelength.
+double fold_excess(double depth_ratio);
+double fold_depth_ratio(double excess);  ///< inverse of fold_excess()
+/// Compression c at which folds begin; below it, the skin only becomes thicker. They begin smoothly between `at` - `softness` and `at` +
+/// `softness`. At rest there are no folds.
 struct FoldOnset {
     double at, softness;
 };
 inline constexpr FoldOnset kSmoothSkin{0.05, 0.04}, kCreasedSkin{0.025, 0.02};
-/// e as a function of c: fraction of the rest length that folds take up
+/// Returns e as a function of c: the fraction of the rest length that the folds take up.
 double folded_fraction(double compression, const FoldOnset& onset = kSmoothSkin);
 
+/// Options of the folds of one head.
 struct WrinkleOptions {
-    double strength = 1.0;      ///< fraction of what could fold that does fold; 0: none
-    double mean_over_m = 3e-3;  ///< length over which the strain is averaged, m
-    double mean_along_crease_m = 9e-3;
+    double strength = 1.0;              ///< factor on e, 0..1; 0: no folds
+    double mean_over_m = 3e-3;          ///< length over which c is averaged
+    double mean_along_crease_m = 9e-3;  ///< the same along a crease
 };
 
+/// The folds of one head.
 class Wrinkles {
   public:
     Wrinkles(const WrinkleLines& lines, const Triangles& skin, const Points& rest,
              const WrinkleOptions& options);
 
-    /// Displaces `vertices` (V x 3, m) by the folds that the mesh resolves and adds the depth of the others to `depth` (V x 3, one column
-    /// per slot, m). Not for several threads at once.
+    /// Displaces `vertices` (V x 3, m) by the folds that the mesh resolves and adds the depth of the others to `depth` (V x 3, m, one
+    /// column per slot). Do not call it from several threads at once.
     void fold(Points& vertices, Points& depth) const;
 
-    /// c per vertex and slot; rows in the order of vertex_indices(). For evaluation and tests.
+    /// Returns c per vertex and slot, with rows in the order of vertex_indices(). For evaluation and tests.
     const Points& compression(const Points& vertices) const;
     const std::vector<int>& vertex_indices() const { return vertex_; }
 
   private:
-    struct Gauge {  // of one triangle in one slot
+    /// Measures F n on one triangle for one slot.
+    struct Gauge {
         int corner[3];
         int slot;
         double weight[3];  // F n = sum weight x
         double area;
     };
-    struct Strip {  // of a crease, cut into pieces along it
+    /// The skin beside a crease, cut into pieces along it.
+    struct Strip {
         int slot;
         std::vector<int> row;       // of vertex_
         std::vector<double> place;  // in pieces

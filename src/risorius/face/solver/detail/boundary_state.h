@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Boundary conditions of the tissue: what moves by itself and takes the tissue along.
+/// Boundary conditions of the tissue: the state of bones, lids, eyes, air and gravity, which act on the tissue.
 #pragma once
 
 #include <array>
@@ -10,12 +10,14 @@
 
 namespace risorius::face {
 
+/// The boundary conditions at one moment.
 struct BoundaryState {
     Rigid mandible = Rigid::Identity();  ///< motion of the mandible from rest, head frame
-    std::array<LidPose, 2> lid;
-    double mouth_pressure_pa = 0;
+    std::array<LidPose, 2> lid;          ///< left and right
+    double mouth_pressure_pa = 0;        ///< > 0 puffs the cheeks
     std::array<Mat3, 2> gaze{Mat3::Identity(), Mat3::Identity()};  ///< rotation of each eye
-    Vec3 weight_m_s2 = Vec3::Zero();  ///< acceleration of all tissue beyond that of the rest shape
+    /// Gravity in the head frame minus that of the rest shape, m/s^2.
+    Vec3 weight_m_s2 = Vec3::Zero();
 };
 
 }  // namespace risorius::face

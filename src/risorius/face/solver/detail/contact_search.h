@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// \file
 /// Finds the contact pairs of the face: deep tissue and lips against skull, mandible and teeth, upper lip against lower lip, lids
-/// against the eyeball. A solve keeps the pairs that were found before it.
+/// against the eyeball. The pairs are found before a solve and stay the same within it.
 ///
 /// The penetration of a pair at rest is subtracted, so that there is no force at rest. Contact planes are blended from several points
-/// of the surface, so that they turn smoothly as tissue slides over it; with the nearest point alone, held poses tremble. The planes
-/// of the lips turn with the lips: a rim faces the other rim, the red lip faces forward. A plane acts only on what lies in front of
-/// it, so that one lip can move behind the other.
+/// of the surface, so that they turn smoothly as tissue slides over it; with the nearest point alone, held poses would tremble. The
+/// planes of the lips turn with the lips: those at the rim face the other rim, those on the red lip face forwards. A plane acts only on
+/// nodes in front of it, so that one lip can move behind the other.
 #pragma once
 
 #include <array>
@@ -23,21 +23,23 @@
 
 namespace risorius::face {
 
-/// Contact::body of contacts that no bone carries.
+/// Values of Contact::body for surfaces that are not bone, after those of BodyIndex.
 enum ContactBody { kGlobeBody = kBodies, kLipBody };
 
+/// The search on one head.
 class ContactSearch {
   public:
+    /// `stiffness_pa_per_m`: contact stiffness per area.
     ContactSearch(const rig::Head& head, const Jaw& jaw, const Shell& shell, const TissueMesh& mesh,
                   const std::array<EyeLids, 2>& lids, double stiffness_pa_per_m);
 
-    /// Returns the pairs at node positions x, n x 3, m. `mandible` is its motion from rest, `gaze` the rotation of each eye, whose
-    /// cornea bulges. `of` flags the rows of x whose pairs are wanted; if it is empty, all are.
+    /// Returns the pairs at node positions x, n x 3, m. `mandible` is its motion from rest, `gaze` the rotation of each eye; the
+    /// bulge of the cornea turns with the eye. `of` flags the rows of x whose pairs are wanted; if it is empty, all pairs are.
     std::vector<tissue::Contacts::Contact> find(const Points& x, const Rigid& mandible,
                                                 const std::array<Mat3, 2>& gaze,
                                                 const std::vector<char>& of = {}) const;
 
-    /// Nodes that may ever touch something, and the maximum contact stiffness of each, N/m. For the constant metric.
+    /// Return the nodes that may ever be in contact, and the maximum contact stiffness of each, N/m. The constant metric needs them.
     const std::vector<int>& nodes() const { return nodes_; }
     const std::vector<double>& node_stiffness() const { return node_stiffness_; }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The mandible of a face. Either the channels of the jaw place it, or its muscles move it within the steps of the tissue; jaw and
-/// tissue then act on each other.
+/// The mandible of a face. Either the channels of the jaw place it, or its muscles move it within the steps of the tissue. In the second
+/// case, jaw and tissue act on each other.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,29 +23,31 @@
 
 namespace risorius::face {
 
+/// The jaw of one face, with the choice of what moves it.
 class DrivenJaw {
   public:
-    /// Keeps references: all arguments must outlive it. At first channels place the jaw.
+    /// Keeps references: all arguments must outlive it. By default, the channels place the jaw.
     DrivenJaw(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw);
 
-    /// `step_s` is the length of the steps that the tissue will make. If muscles move the jaw, the boundary conditions of the tissue
-    /// are those of rest afterwards.
+    /// Sets what moves the jaw. `step_s` is the length of the steps that the tissue will make, s. If muscles move the jaw, the boundary
+    /// conditions of the tissue are those of rest afterwards.
     void drive_by(track::JawDrive by, const track::ChannelTable& channels, double step_s,
                   FaceTissue& tissue);
     bool by_muscles() const { return dynamics_.has_value(); }
     const JawJoint& joint() const { return joint_; }
-    /// Throws std::logic_error where channels place the jaw.
+    /// Sets the height of the bite block, m; 0 removes it. Throws std::logic_error if channels place the jaw.
     void set_bite_block(double height_m);
 
-    /// Returns the motion from rest that the channels ask for.
+    /// Returns the motion of the mandible from rest that the channels ask for.
     Rigid wanted(const track::Drive& drive) const;
-    /// Returns the motion from rest: at coordinates q if muscles move the jaw, otherwise the one that the channels ask for.
+    /// Returns the motion of the mandible from rest: that of the coordinates q if muscles move the jaw, else that of the channels.
     Rigid motion(const JawVector& q, const track::Drive& drive) const;
-    /// Returns the excitation per column. If muscles move the jaw, it contains what the channels of the jaw ask of them.
+    /// Returns the excitation per column. If muscles move the jaw, it is at least the excitation with which they move the jaw as its
+    /// channels say.
     Eigen::VectorXd excitation(const Eigen::VectorXd& excitation, const track::Drive& drive) const;
 
-    /// Solves one step of the tissue of length h, s. If muscles move the jaw, it is part of the solve: `state` is advanced by a step
-    /// of length `jaw_h`, s. The other arguments are those of FaceTissue::implicit_step().
+    /// Solves one step of the tissue of length h, s. If muscles move the jaw, the jaw is part of the solve: `state` is advanced by a
+    /// step of length `jaw_h`, s. The other arguments are those of FaceTissue::implicit_step().
     StepStats implicit_step(FaceTissue& tissue, double h, double jaw_h, const Points& start,
                             const Points& aim, const Eigen::VectorXd& activation,
                             const JawDynamics::Carriage& carriage,
@@ -57,8 +59,8 @@ class DrivenJaw {
                                 const Vec3& gravity_m_s2, const StaticOptions& options, Points& x,
                                 JawDynamics::State& state) const;
 
-    /// Returns length and isometric force of the jaw muscle of a column, at q; nothing for other columns and while channels place
-    /// the jaw.
+    /// Returns length, stretch and isometric force of the jaw muscle of a column, at q. Returns std::nullopt for other columns and while
+    /// channels place the jaw.
     std::optional<muscle::ChainSet::State> muscle_state(int column, const JawVector& q,
                                                         double activation) const;
 

@@ -3,12 +3,13 @@
 /// The equilibrium of a face under a drive, and its derivatives by the drive. The public view is statics.h.
 ///
 ///     g(x, p) = 0,   H = dg/dx,   dx/dp = - H^-1 dg/dp,   dv/dp = v_x dx/dp + v_p
-///     for a number L(x) with b = dL/dx:   dL/dp = - (H^-1 b) . dg/dp
+///     for a scalar function L(x) with b = dL/dx:   dL/dp = - (H^-1 b) . dg/dp
 ///
-/// - x: nodes, n x 3, m; p: a number of the drive; g: gradient of the static energy, n x 3, N; v(x, p): vertices of the mesh, V x 3, m
+/// - x: nodes, n x 3, m; p: an activation or a channel of the drive; g: gradient of the static energy, n x 3, N
+/// - v(x, p): vertices of the mesh, V x 3, m; v_x, v_p: its derivatives by x and p
 ///
-/// All derivatives use one factor of H. H treats contact planes as fixed. They turn as tissue slides over them; a few more solves with
-/// the same factor correct dx/dp for that.
+/// All derivatives use one factorisation of H. H treats contact planes as fixed, but they turn as tissue slides over them. A few more
+/// solves with the same factorisation correct dx/dp for that.
 #pragma once
 
 #include <functional>
@@ -22,9 +23,10 @@
 
 namespace risorius::face {
 
+/// Finds equilibria of one face and differentiates them.
 class Equilibrium {
   public:
-    /// Sets the boundary conditions of the tissue (bones, lids, air) for activation and drive.
+    /// Sets the boundary conditions of the tissue (bones, lids, mouth pressure, weight) for activation and drive.
     using Prescribe =
         std::function<void(const Eigen::VectorXd& activation, const track::Drive& drive)>;
     /// Returns the vertices of the mesh, V x 3, m, for nodes and drive.
@@ -44,9 +46,9 @@ class Equilibrium {
     /// Moves x to the equilibrium. The boundary conditions must be set.
     StepStats solve_equilibrium(const Eigen::VectorXd& activation, const StaticOptions& options,
                                 Points& x);
-    /// Call it when the pose or the forces have changed: the factor of H is out of date.
+    /// Says that the pose or the forces have changed, so that the factorisation of H is out of date.
     void moved() { factored_ = false; }
-    /// The next equilibrium will depend on its arguments alone, not on former factors.
+    /// Forgets all factorisations, so that the next equilibrium depends on its arguments alone.
     void forget() {
         moved();
         solver_.forget();
@@ -62,7 +64,7 @@ class Equilibrium {
                                       std::span<const track::Kinematic> channels);
 
   private:
-    /// Sets the boundary conditions of the pose, finds its contacts, and factors H unless the factor is up to date.
+    /// Sets the boundary conditions of the pose, finds its contacts, and factorises H unless the factorisation is up to date.
     void prepare(const Pose& pose);
 
     FaceTissue& tissue_;

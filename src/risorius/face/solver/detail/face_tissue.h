@@ -7,7 +7,8 @@
 ///     E = |x - a|^2_M / (2 h^2) + beta/(2 h) sum V mu |F - F_n|^2 + sum of the energy terms (face_terms.h)
 ///
 /// - a: the positions that the nodes would reach without forces. TissueMotion sets h and a so that the steps are those of BDF2.
-/// - M: lumped mass, kg; beta: damping time, s; F, F_n: deformation gradients now and at the start of the step
+/// - M: lumped mass, kg; beta: damping time, s
+/// - F, F_n: deformation gradients of a tetrahedron now and at the start of the step; V: its volume, m^3; mu: its shear modulus, Pa
 ///
 /// The minimiser is L-BFGS with one prefactored matrix per h.
 #pragma once
@@ -55,13 +56,14 @@ class HessianBuilder;
 
 namespace risorius::face {
 
-/// A jaw that its muscles move within a step of the tissue.
+/// A step of a jaw that its muscles move, for the common solve with the tissue.
 struct JawInStep {
     const JawDynamics& dynamics;
     JawDynamics::Step step;
-    JawVector q;  ///< coordinates at the start; the solve replaces them
+    JawVector q;  ///< coordinates at the start of the step; the solve replaces them by the result
 };
 
+/// The tissue of one face: its energy terms, its steps, and its static energy.
 class FaceTissue {
   public:
     FaceTissue(const FaceTissue&) = delete;  // its terms refer to its members
@@ -70,26 +72,27 @@ class FaceTissue {
     FaceTissue(const rig::Head& head, const rig::RigDescription& rig, const Jaw& jaw,
                const std::array<EyeLids, 2>& lids, const Shell& shell, const TissueMesh& mesh);
 
-    /// Factors the matrices for steps of length h, s, before the first of them.
+    /// Factorises the matrices for steps of length h, s. Call it before the first such step.
     void prepare(double h);
 
     /// Sets the precision of the tissue forces in time steps. Equilibria use double precision.
     void step_in(solve::Precision precision) { inputs_.precision = precision; }
 
-    /// Sets the extra iterations restricted to the mouth after each dynamic step: soft lips converge last.
+    /// Sets the number of extra iterations restricted to the mouth after each dynamic step. The soft lips converge last.
     void refine_mouth(int iterations) { mouth_iterations_ = iterations; }
 
     void set_boundary_conditions(const BoundaryState& prescribed);
 
-    /// Moves the nodes that follow the mandible, x n x 3, m, when it moves from `from` to `to`.
+    /// Moves the nodes x, n x 3, m, that follow the mandible, when its motion from rest changes from `from` to `to`.
     void carry_with_bone(Points& x, const Rigid& from, const Rigid& to) const {
         terms_.carry(x, from, to);
     }
 
-    /// Finds the contact pairs at x; they are used until the next call. The shifts that contacts have learned are kept (contacts.h).
+    /// Finds the contact pairs at x; they are used until the next call. The shifts of contacts that were in the list before are kept
+    /// (contacts.h).
     void find_contacts(const Points& x);
     void forget_contacts() { contacts_.forget(); }
-    /// Returns the penetration at x of newly found pairs.
+    /// Searches contact pairs at x and returns their penetration. Does not change the pairs in use.
     Penetration penetration(const Points& x) const;
     /// Returns x with penetrations resolved for display, see separation.h.
     Points resolve_penetration(const Points& x, const Rigid& mandible,
@@ -98,34 +101,36 @@ class FaceTissue {
     }
 
     /// Solves one step of length h, s. `start` and `aim` are n x 3, m: the positions at the start of the step, and a (see above). x is
-    /// the first guess and becomes the result. The moves of x in `warm_start`, n x 3 each, are the first curvature pairs of L-BFGS.
+    /// the first guess and becomes the result. `warm_start` has moves of x, n x 3, m, from which the first curvature pairs of L-BFGS are made.
     StepStats implicit_step(double h, const Points& start, const Points& aim,
                             const Eigen::VectorXd& activation,
                             const solve::QuasiNewtonOptions& options, Points& x,
                             std::span<const Points> warm_start = {});
 
-    /// Prepares static energies at and around x: without inertia and damping.
+    /// Prepares static energies, without inertia and damping, at and around x.
     void begin_rest(const Points& x) { solids_->begin_rest(x); }
     /// Returns the static energy, J, and its gradient, n x 3, N, zero on fixed rows. Call begin_rest() first.
     double static_energy(const Points& x, const Eigen::VectorXd& activation,
                          Points& gradient) const;
-    /// Adds the second derivative of the static energy, N/m, with the contact pairs found last. Pairs that are apart add zeros, so that
-    /// the pattern of the matrix does not depend on what touches.
+    /// Adds the second derivative of the static energy, N/m, with the contact pairs as they were found last. Pairs that do not touch add
+    /// zeros, so that the pattern of the matrix does not depend on which pairs touch.
     void add_static_hessian(const Points& x, const Eigen::VectorXd& activation,
                             solve::Curvature curvature, solve::HessianBuilder& hessian) const;
     const std::vector<char>& fixed() const { return fixed_; }  ///< one flag per row of x
     const tissue::Contacts& contacts() const { return contacts_; }
-    /// Like find_contacts(), for equilibria: contacts harden with depth and have no memory.
+    /// Like find_contacts(), for equilibria: contacts become stiffer with depth and have no memory of former solves.
     void find_rest_contacts(const Points& x);
     /// Like find_contacts(), without memory: for the first iterations towards an equilibrium.
     void find_soft_contacts(const Points& x);
-    /// Ends the search for an equilibrium at x: returns depths and volumes, and sets the memory of the contacts so that steps from here
-    /// press as hard.
+    /// Ends the search for an equilibrium at x: returns depths and volume error, and sets the memory of the contacts so that in time steps
+    /// from here contacts press equally hard.
     StepStats end_rest(const Points& x);
-    /// Sets the contacts to `found`, which were found with the mandible at `from`. Those of the mandible move with it.
+    /// Sets the contacts to `found`, which were found when the motion of the mandible was `from`. Contacts with the mandible are moved
+    /// along with it.
     void ride_contacts(const std::vector<tissue::Contacts::Contact>& found, const Rigid& from);
+    /// Returns the motion of the mandible from rest.
     const Rigid& mandible() const { return mandible_; }
-    /// Returns the gradient of the static energy with the contacts found last, n x 3, N; zero on fixed rows.
+    /// Returns the gradient of the static energy with the contacts as they were found last, n x 3, N; zero on fixed rows.
     Points static_gradient(const Points& x, const Eigen::VectorXd& activation) const;
 
     int nodes() const { return static_cast<int>(mesh_.nodes.rows()); }  ///< of the tissue
@@ -133,22 +138,22 @@ class FaceTissue {
     const Points& rest() const { return rest_; }
     const MuscleSolids& solids() const { return *solids_; }
     MuscleSolids& solids() { return *solids_; }
-    /// Adds a force after all others. Nodes are numbered as in rest(); its metric covers the nodes of the tissue only.
+    /// Adds a force after all others. Its nodes are the rows of rest(); its metric may only refer to nodes of the tissue.
     void add_term(std::shared_ptr<solve::EnergyTerm> term);
     void scale_lips(const rig::LipsDescription& lips) {
         lip_drive_->scale(lips);
         forget_mouth();
     }
-    /// Call it after a change of forces: the local solve of the mouth has copies of them.
+    /// Call it after a change of forces, because the local solve of the mouth has copies of them.
     void forget_mouth() { mouth_.reset(); }
     /// Solves one step of the tissue together with a jaw that its muscles move: minimises the sum of both energies over the nodes and
-    /// the coordinates of the jaw. The boundary conditions must be those of the start of the jaw.
+    /// the coordinates of the jaw. The boundary conditions must be those with the jaw at the start of its step.
     StepStats implicit_step(double h, const Points& start, const Points& aim,
                             const Eigen::VectorXd& activation,
                             const solve::QuasiNewtonOptions& options, Points& x, JawInStep& jaw);
 
-    /// Measures the stiffness of the resting tissue against the motion of a jaw, for steps of length h, s. Call it before the first of
-    /// them. Afterwards the boundary conditions are those of rest.
+    /// Measures the stiffness of the resting tissue against the motion of a jaw, for steps of length h, s. Call it before the first such
+    /// step. Afterwards the boundary conditions are those of rest.
     void prepare(double h, const JawDynamics& jaw);
     const JawMatrix& ride_stiffness(double h) const;  ///< the measured stiffness, N/m
 
@@ -171,7 +176,7 @@ class FaceTissue {
     std::shared_ptr<FaceTerm> make_attachment_term() const;
     void find_cheeks(const Jaw& jaw);
     const solve::SparseCholesky& metric(double h);
-    /// Starts a step. step_energy() then returns E, J, and its gradient by the nodes.
+    /// Starts a step. After this, step_energy() returns E, J, and its gradient by the nodes, n x 3, N.
     void begin_step(double h, const Points& start, const Eigen::VectorXd& activation);
     double step_energy(double h, const Points& aim, const Eigen::VectorXd& activation,
                        const Points& at, Points& gradient);
@@ -182,7 +187,7 @@ class FaceTissue {
     bool refines_mouth(double h) const { return mouth_iterations_ > 0 && h < kSettling_s; }
     LocalSolve make_mouth(double h) const;
     StepStats end_step(const solve::StepReport& report, const Points& x);
-    /// Moves the mandible within a step: what it holds follows, directions stay those of the start of the step.
+    /// Moves the mandible within a step: targets on it follow, directions stay those of the start of the step.
     void move_mandible(const Rigid& moved);
     /// Fills the list of energy terms.
     void build_terms();
@@ -198,14 +203,14 @@ class FaceTissue {
     std::vector<Attachment> attachments_;
     std::optional<MuscleSolids> solids_;
     Points rest_;
-    std::vector<char> fixed_;  // rows
+    std::vector<char> fixed_;  // one flag per row of x
     std::optional<tissue::TetSolid> tets_;
     SkinSheetParts sheet_;
     std::optional<tissue::SkinSheet> skin_;
     muscle::HillShape hill_;
     MusclePlacement muscles_;
     std::optional<muscle::FibreSet> fibres_;
-    mutable std::optional<LipDrive> lip_drive_;  // follows the activation it is asked with
+    mutable std::optional<LipDrive> lip_drive_;  // add_energy() sets its activation
     ContactSearch search_;
     tissue::Contacts contacts_;
     Rigid mandible_ = Rigid::Identity();
@@ -218,7 +223,7 @@ class FaceTissue {
     solve::QuasiNewton newton_;
     FaceTerms terms_;
     mutable TermInputs inputs_;
-    Points step_start_;  // positions at the start of the present step
+    Points step_start_;  // positions at the start of the current step
     int mouth_iterations_ = 0;
     std::optional<LocalSolve> mouth_;  // for the step length used last
     Points carried_, carried_gradient_;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Extra iterations of a step that are restricted to some nodes of the tissue, all others being held. Nodes that converge
-/// slowly get more iterations at the cost of these nodes alone.
+/// Extra iterations of a step that move only some nodes of the tissue. All other nodes are held. So nodes that converge slowly
+/// get more iterations, at the cost of these nodes alone.
 ///
-/// The energy is that of the whole step (face_tissue.h) without what no moving node takes part in. Each term gives its form
-/// for these nodes (FaceTerm::restricted_to).
+/// The energy is that of the whole step (face_tissue.h), without the parts that do not depend on a moving node. Each term gives
+/// its form for these nodes (FaceTerm::restricted_to).
 #pragma once
 
 #include <memory>
@@ -19,27 +19,30 @@
 
 namespace risorius::face {
 
+/// The solve for one set of moving nodes and one length of step.
 class LocalSolve {
   public:
-    /// `moves` has one flag per node of the tissue, `rest` (m) and `mass_kg` one row per node. `h` is the length of the
+    /// `moves` has one flag per node of the tissue, `rest` (n x 3, m) and `mass_kg` one row per node. `h` is the length of the
     /// steps, s. Keeps references to the objects of the terms. Make a new LocalSolve when the list of terms or their
     /// stiffness changes.
     LocalSolve(const FaceTerms& terms, const std::vector<char>& moves, const Points& rest,
                const Eigen::VectorXd& mass_kg, double h);
 
     double step_s() const { return h_; }
+    /// Returns the number of moving nodes.
     int moving_nodes() const { return nodes_.moving(); }
 
-    /// Continues a step at x, n x 3, m, and moves x.
+    /// Makes the extra iterations of a step: starts at x, n x 3, m, and writes the result to the moving rows of x.
     solve::StepReport advance(const LocalStep& step, const solve::QuasiNewtonOptions& options,
                               Points& x);
 
     /// Starts the iterations of a step at x.
     void begin(const LocalStep& step, const Points& x);
-    /// Returns the energy of the step, J, but for a constant, and its gradient over local nodes: zero on held ones. After
-    /// begin().
+    /// Returns the energy of the step, J, up to a constant, at the local positions `at` (m), and writes its gradient, N, which is
+    /// zero on held nodes. Call begin() first.
     double energy(const Points& at, Points& gradient) const;
     Points taken(const Points& x) const { return nodes_.taken(x); }  ///< the local rows of x
+    /// Returns the nodes of the tissue, one per local row.
     const std::vector<int>& nodes() const { return nodes_.nodes(); }
 
   private:
@@ -49,7 +52,7 @@ class LocalSolve {
 
     double h_;
     LocalNodes nodes_;
-    std::vector<std::unique_ptr<LocalTerm>> terms_;  // one per term of the face, or nothing
+    std::vector<std::unique_ptr<LocalTerm>> terms_;  // per term of the face, or null
     std::vector<const solve::EnergyTerm*> whole_terms_;
     Eigen::VectorXd mass_kg_;
     std::optional<solve::SparseCholesky> metric_;

@@ -5,12 +5,12 @@
 ///     g(x) = dE/dx = 0,   H = d2E/dx2
 ///
 /// - E: static energy of FaceTissue, J; x: nodes, n x 3, m
-/// - B: inverse of H as last factored, at x or nearby, without its negative curvature
+/// - B: inverse of H as it was last factorised, at x or nearby, without negative curvature
 ///
 /// The method is L-BFGS with the metric B. Its first iteration is a Newton step; later iterations correct B for the new positions.
-/// Contact pairs are searched before each round of iterations and are fixed within it. H is factored again when a round gains too
-/// little. Nodes that keep snapping between the planes of two rounds are held by springs to their position at the start of the round;
-/// the springs exert no force in equilibrium.
+/// Contact pairs are searched before each round of iterations and are fixed within it. H is factorised again when a round gains too
+/// little. Some nodes keep snapping between the contact planes of two rounds. Springs hold them to their positions at the start of the
+/// round; the springs exert no force in equilibrium.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,17 +25,20 @@
 
 namespace risorius::face {
 
+/// The solver for one tissue.
 class StaticSolver {
   public:
-    /// Keeps a reference.
+    /// Keeps a reference to the tissue.
     explicit StaticSolver(FaceTissue& tissue);
     ~StaticSolver();
 
-    /// Moves x to the equilibrium and finds the contacts there. The boundary conditions must be set, and fixed rows of x in place.
+    /// Moves x to the equilibrium and finds the contacts there. The boundary conditions must be set, and the fixed rows of x must be in
+    /// place.
     StepStats solve_equilibrium(const Eigen::VectorXd& activation, const StaticOptions& options,
                                 Points& x);
 
-    /// Factors H at x with the present contacts. If the exact H is not positive definite, its positive part is factored.
+    /// Factorises H at x with the current contacts. `first` is the form of H that is tried first. If it is not positive definite, the
+    /// positive part of H is factorised.
     void factorise(const Points& x, const Eigen::VectorXd& activation, solve::Curvature first);
     /// Computes y = H^-1 b, n x 3 each, with the last factor. Fixed rows of y are zero.
     void solve(const Points& b, Points& y) const;

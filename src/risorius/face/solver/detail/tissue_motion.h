@@ -2,12 +2,12 @@
 /// \file
 /// Time integration of the tissue in the moving frame of the head, by BDF2 (second-order backward difference formula).
 ///
-///     x_{n+1} = b_x + h' v_{n+1},   v_{n+1} = b_v + h' a_{n+1},   b = (4 (.)_n - (.)_{n-1}) / 3,   h' = 2h/3
+///     x_{n+1} = b_x + h' v_{n+1},   v_{n+1} = b_v + h' a_{n+1},   b_y = (4 y_n - y_{n-1}) / 3 for y = x and v,   h' = 2h/3
 ///
-/// - x, v, a: position, velocity and acceleration through space, in the head frame of their step; h: step, s
-/// - H_n: pose of the head at step n, world from head; M = H_{n+1}^-1 H_n: motion of a point at rest in space, seen from the head
+/// - x, v, a: position, m, velocity, m/s, and acceleration, m/s^2, relative to space, in the head frame of their step; h: step, s
+/// - H_n: pose of the head at step n, world from head; M = H_{n+1}^-1 H_n: motion, in the head frame, of a point that rests in space
 ///
-/// M carries positions and velocities of former steps into the new frame. So all inertial forces of a moving head (linear, angular,
+/// M transforms positions and velocities of former steps to the new head frame. So all inertial forces of a moving head (linear, angular,
 /// centrifugal, Coriolis) are included to second order. A BDF2 step equals an implicit Euler step of length h' from b_x without
 /// forces reaching b_x + h' b_v.
 /// Source: Hairer & Wanner, Solving Ordinary Differential Equations II, V.1.
@@ -20,25 +20,30 @@
 
 namespace risorius::face {
 
-/// Maximum acceleration of the head that the tissue feels, ten times gravity. Scripts may let the head jump.
+/// Maximum acceleration of the head that acts on the tissue, ten times gravity. It limits the forces when a script makes the head jump.
 inline constexpr double kMaxFelt_m_s2 = 98.1;
 
+/// The former steps of the tissue of one face. Functions are called as start(), then begin() and end() for each step.
 class TissueMotion {
   public:
+    /// Keeps a reference to `neck`. `rest`: positions at rest, n x 3, m.
     TissueMotion(const Neck& neck, const Points& rest, double step_s);
 
-    /// Starts at rest, in space and in the head frame. x: n x 3, m.
+    /// Starts with zero velocity, relative to space and to the head. `x`: n x 3, m; `head`: motion of the head from rest.
     void start(const Points& x, const Rigid& head);
 
     double effective_step_s() const { return 2 * step_s_ / 3; }  ///< h'
 
+    /// Positions from which a step is computed, in its head frame.
     struct Step {
-        Points start;  ///< b_x without the motion of the head, n x 3, m: strain rates refer to it
+        Points start;  ///< b_x without the motion of the head, n x 3, m: reference of strain rates
         Points aim;    ///< b_x + h' b_v, n x 3, m
         Points expected;                  ///< linear extrapolation within the head frame, n x 3, m
         Rigid moved = Rigid::Identity();  ///< M
     };
+    /// Begins a step at whose end the motion of the head from rest is `head`.
     const Step& begin(const Rigid& head);
+    /// Ends the step with the positions x that were found, n x 3, m.
     void end(const Points& x);
 
     /// Returns the velocity within the head frame, n x 3, m/s.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Drawn surfaces of muscles without volume in the simulation (bundles of fibres, and muscles attached to bones only): ribbons with a
-/// middle surface and thickness on both sides. Where a muscle shortens, it becomes thicker so that its volume is constant.
+/// Surfaces for drawing the muscles that have no volume in the simulation (bundles of fibres, and muscles attached to bones only). They are
+/// ribbons: a middle surface with thickness on both sides. Where a ribbon shortens, it becomes thicker, so that its volume is constant.
 #pragma once
 
 #include <variant>
@@ -16,16 +16,18 @@
 
 namespace risorius::face {
 
+/// The ribbons of one face.
 class MuscleRibbons {
   public:
     /// Adds to `surfaces` one surface for every bundle of fibres, and one for every other muscle that is not a solid.
     MuscleRibbons(const rig::Head& head, const rig::RigDescription& rig,
                   const MusclePlacement& placement, MuscleSurfaces& surfaces);
 
-    /// Writes its own rows of `vertices`. `nodes`: the current nodes of the tissue.
+    /// Writes the rows of the ribbons in `vertices`, m, head frame. `nodes`: current positions of the nodes of the tissue, n x 3, m.
     void place(const Points& nodes, const BoneMotion& bones, Points& vertices) const;
 
   private:
+    /// One ribbon.
     struct Strap {
         std::variant<FibreSheet, BoneSheet> sheet;
         SheetSize size;

@@ -2,7 +2,7 @@
 /// \file
 /// Middle surfaces of flat muscles: grids of points, rows along the fibres from origin to insertion, columns across.
 ///
-/// Point of row i and column j: i * columns + j. Frame: the head frame, m.
+/// The point of row i and column j has the index i * columns + j. Positions are in the head frame, m.
 #pragma once
 
 #include <string>
@@ -16,49 +16,51 @@
 
 namespace risorius::face {
 
-/// Motion of the bones that muscles are attached to; the skull is fixed.
+/// Motion from rest, in the head frame, of the bones that muscles are attached to. The skull does not move.
 struct BoneMotion {
     Rigid mandible = Rigid::Identity();
-    Vec3 hyoid_m = Vec3::Zero();  ///< displacement
+    Vec3 hyoid_m = Vec3::Zero();  ///< displacement, m
 };
 
+/// Size of a grid of points.
 struct SheetSize {
     int rows = 0, columns = 0;
-    double length_m = 0, width_m = 0;  ///< at rest, the width that of the belly
+    double length_m = 0, width_m = 0;  ///< at rest; the width is that of the belly
 
     double along(int row) const { return static_cast<double>(row) / (rows - 1); }  ///< 0..1
-    /// -1..1, closer together towards the rounded edges.
+    /// Returns the position of a column across, -1..1. Columns are closer together near the rounded edges.
     double across(int column) const;
     int points() const { return rows * columns; }
 };
 
-/// A bundle of fibres in the tissue: a smooth surface through its strands.
+/// The middle surface of a bundle of fibres in the tissue: a smooth surface through the fibres.
 class FibreSheet {
   public:
     FibreSheet(const MusclePlacement& placement, const FibreBundle& bundle);
 
     const SheetSize& size() const { return size_; }
-    /// `fibre_points`: current positions of the points of all fibres, m.
+    /// Writes the grid. `fibre_points`: current positions of the points of all fibres, m.
     void place(const Points& fibre_points, Points& grid) const;
 
   private:
-    struct Mix {  ///< of four neighbours, weights of a Catmull-Rom curve
+    /// Four neighbours and their weights in a Catmull-Rom curve.
+    struct Mix {
         int of[4];
         double weight[4];
     };
     SheetSize size_;
     int strands_;
-    std::vector<Mix> stations_;  ///< rows x strands, of fibre points
-    std::vector<Mix> columns_;   ///< rows x columns, of strands
+    std::vector<Mix> stations_;  ///< rows x fibres, mixes of fibre points
+    std::vector<Mix> columns_;   ///< rows x columns, mixes of fibres
 };
 
-/// The part of the skin that faces outwards at rest: without nostrils, ear canals and other surfaces that are turned inwards.
+/// Returns the part of the skin that faces outwards at rest: without nostrils, ear canals and other surfaces that face inwards.
 geom::SurfaceTree outer_skin(const rig::Head& head);
 
-/// A muscle between bones: its ends move with the bones, and the motion is interpolated between them.
+/// The middle surface of a muscle between bones. Its ends move with the bones; between them the motion is interpolated.
 class BoneSheet {
   public:
-    /// `skin`: outer skin at rest. Wide muscles near it are curved like it.
+    /// `skin`: the outer skin at rest. Wide muscles near the skin are curved like the skin.
     BoneSheet(const rig::Head& head, const rig::Muscle& muscle, const rig::MusclePath& path,
               const geom::SurfaceTree& skin);
 
@@ -67,10 +69,10 @@ class BoneSheet {
 
   private:
     SheetSize size_;
-    std::vector<Vec3> centre_;      ///< rows
-    std::vector<Vec3> offset_;      ///< rows x columns
-    std::vector<double> fraction_;  ///< rows, fraction of the mandible's motion
-    std::vector<double> hyoid_fraction_;
+    std::vector<Vec3> centre_;            ///< rows
+    std::vector<Vec3> offset_;            ///< rows x columns
+    std::vector<double> fraction_;        ///< rows, fraction of the mandible's motion
+    std::vector<double> hyoid_fraction_;  ///< rows, fraction of the hyoid's motion
 };
 
 }  // namespace risorius::face

@@ -14,13 +14,14 @@
 
 namespace risorius::face {
 
-/// Where one spring of a lid ends on the tarsal plate.
+/// The end of one spring of a lid on the tarsal plate.
 struct LidSpring {
-    int side;
+    int side;  ///< 0 left, 1 right
     LidMember member;
-    Vec3 rest;  ///< m
+    Vec3 rest;  ///< position at rest, m
 };
 
+/// These springs as a term of the face.
 class AttachmentTerm : public FaceTerm {
   public:
     /// Keeps references. `springs` has one entry per attachment, then one per lid spring.
@@ -34,7 +35,7 @@ class AttachmentTerm : public FaceTerm {
     void add_metric(double step_s, solve::MetricBuilder& metric) const override;
     void set_boundary_conditions(const BoundaryState& boundary) override;
     void move_mandible(const Rigid& mandible) override;
-    /// All tissue over an attachment follows the mandible as far as the attachment does.
+    /// All nodes over an attachment follow the same fraction of the mandible's motion as the attachment.
     void carry(Points& x, const Rigid& from, const Rigid& to) const override;
     void add_mandible_gradient(const Rigid& mandible, const Points& x, const Points& gradient,
                                Wrench& sum) const override;

@@ -11,13 +11,14 @@
 
 namespace risorius::face {
 
+/// The contacts as a term of the face.
 class ContactTerm : public FaceTerm {
   public:
     /// Keeps references.
     ContactTerm(tissue::Contacts& contacts, const ContactSearch& search)
         : contacts_(contacts), search_(search) {}
-    /// Call it when the list of contacts is new: it notes which points the mandible carries, `mandible` being its motion
-    /// from rest.
+    /// Notes where the points of the contacts lie on the mandible. Call it after each change of the list of contacts. `mandible` is
+    /// the motion of the mandible from rest.
     void note(const Rigid& mandible);
     double add_potential(const solve::ImplicitStep& step, const Points& x,
                          Points& gradient) const override;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The energy of the muscle fibres: active and passive force. Some of their points lie on bone.
+/// The energy of the muscle fibres in bundles, for their active and passive force. Some points of the fibres lie on bone.
 #pragma once
 
 #include "risorius/face/solver/detail/face_terms.h"
@@ -8,6 +8,7 @@
 
 namespace risorius::face {
 
+/// The fibres as a term of the face.
 class FibreTerm : public FaceTerm {
   public:
     /// Keeps references. `hill` are the curves that the fibres were built with.

@@ -8,9 +8,10 @@
 
 namespace risorius::face {
 
+/// The volume effect as a term of the face.
 class LipTerm : public FaceTerm {
   public:
-    /// Keeps references. Evaluations set the activation of `lips`.
+    /// Keeps references. Each evaluation sets the activation of `lips`.
     LipTerm(LipDrive& lips, const TermInputs& inputs) : lips_(lips), inputs_(inputs) {}
     double add_potential(const solve::ImplicitStep& step, const Points& x,
                          Points& gradient) const override;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Dead loads: air pressure in the cheeks, and what the weight of the tissue changes when the head tilts.
+/// Dead loads, which do not depend on the positions: air pressure in the cheeks, and the change of the weight of the tissue when the
+/// head tilts.
 #pragma once
 
 #include <utility>
@@ -11,9 +12,10 @@
 
 namespace risorius::face {
 
+/// The loads as a term of the face.
 class LoadTerm : public FaceTerm {
   public:
-    /// Keeps references. `cheeks`: a deep node and its outward area, m^2; `mass_kg` and `fixed`: per node.
+    /// Keeps references. `cheeks`: deep nodes, each with its area vector (outwards, m^2); `mass_kg` and `fixed`: per node.
     LoadTerm(const std::vector<std::pair<int, Vec3>>& cheeks, const Eigen::VectorXd& mass_kg,
              const std::vector<char>& fixed)
         : cheeks_(cheeks), mass_kg_(mass_kg), fixed_(fixed) {}

@@ -8,16 +8,17 @@
 
 namespace risorius::face {
 
-/// What a SkinSheet is made of.
+/// The data from which a SkinSheet is built.
 struct SkinSheetParts {
     Triangles triangles;               ///< F x 3 nodes
     Eigen::VectorXd membrane_n_per_m;  ///< per triangle
     Eigen::VectorXd bending_n_m;       ///< per triangle
 };
 
+/// The skin as a term of the face.
 class SkinTerm : public FaceTerm {
   public:
-    /// Keeps references. `parts` are those of `skin`.
+    /// Keeps references. `skin` must have been built from `parts`.
     SkinTerm(const tissue::SkinSheet& skin, const SkinSheetParts& parts, const TermInputs& inputs)
         : skin_(skin), parts_(parts), inputs_(inputs) {}
     double add_potential(const solve::ImplicitStep& step, const Points& x,

@@ -8,6 +8,7 @@
 
 namespace risorius::face {
 
+/// The tetrahedra as a term of the face.
 class TissueTerm : public FaceTerm {
   public:
     /// Keeps references. `damping_s` is beta in face_tissue.h.

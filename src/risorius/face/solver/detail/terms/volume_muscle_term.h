@@ -8,6 +8,7 @@
 
 namespace risorius::face {
 
+/// The volume muscles as a term of the face.
 class VolumeMuscleTerm : public FaceTerm {
   public:
     /// Keeps references.
@@ -28,7 +29,7 @@ class VolumeMuscleTerm : public FaceTerm {
 
   private:
     MuscleSolids& solids_;
-    mutable Wrenches pull_;  // on skull and mandible, at the last evaluation
+    mutable Wrenches pull_;  // of the muscles on skull and mandible, at the last evaluation
     const TermInputs& inputs_;
 };
 
