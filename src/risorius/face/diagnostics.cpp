@@ -85,7 +85,8 @@ Vec3 Diagnostics::landmark(const std::string& id) const {
         }
         offset = rest - head.vertices.row(vertex).transpose();
     }
-    return face_->pose(1.0).vertices.row(vertex).transpose() + offset;
+    const FacePose pose = face_->pose(1.0);
+    return pose.vertices.row(vertex).transpose() + pose.head.linear() * offset;
 }
 
 double Diagnostics::mean_stretch(const std::string& muscle) const {
