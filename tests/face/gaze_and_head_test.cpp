@@ -115,5 +115,19 @@ TEST(HeadTurn, DoesNotTearTheNeck) {
     EXPECT_LT(longest, 2.5);
 }
 
+TEST(HeadTurn, CarriesTheLandmarksBesideTheMesh) {
+    Face one = adult_face();
+    const FacePose pose = equilibrium_pose(one, with_kinematic(Kinematic::kHeadYaw, 60));
+    int beside = 0;
+    for (const auto& [id, rest] : one.head().landmarks) {
+        const auto given = rig::adult().rig.landmarks.find(id);
+        if (given != rig::adult().rig.landmarks.end() && given->second.vertex >= 0) continue;
+        if (rest.y() < 0) continue;  // nothing below the ears: the neck turns by less
+        ++beside;
+        EXPECT_LT((one.diagnostics().landmark(id) - pose.head * rest).norm(), 2e-3) << id;
+    }
+    EXPECT_GT(beside, 3);
+}
+
 }  // namespace
 }  // namespace risorius::face

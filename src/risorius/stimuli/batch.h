@@ -35,7 +35,7 @@ struct BatchPlan {
     std::string name;
     design::Match match;
     std::optional<design::ExperimentOptions> experiment;
-    /// For each set of conditions that uses only a part of its crossing: how balanced that part is (design/crossing.h). The key
+    /// For each set of conditions that uses only a part of its crossing: how balanced that part is (design/detail/crossing.h). The key
     /// is its name.
     std::vector<std::pair<std::string, design::Balance>> balances;
     std::vector<ClipPlan> clips;

@@ -62,7 +62,7 @@ Correctives find_correctives(const scene::RigFiles& files, const MadeShapes& sha
 struct TrackError {
     std::string name;
     int frames = 0;
-    double rms_m = 0, max_m = 0;                   ///< over all frames
+    double rms_m = 0, max_m = 0;              ///< over all frames
     double plain_rms_m = 0, plain_max_m = 0;  ///< the same without correctives
     /// Index of the frame of max_m; worst_vertex is its vertex
     int worst = 0;
