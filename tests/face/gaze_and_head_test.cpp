@@ -116,17 +116,15 @@ TEST(HeadTurn, DoesNotTearTheNeck) {
 }
 
 TEST(HeadTurn, CarriesTheLandmarksBesideTheMesh) {
-    Face one = adult_face();
+    // Landmarks that the rig does not give are warped from the atlas and are no vertices
+    rig::RigDescription rig = rig::adult().rig;
+    for (const char* id : {"g", "bm_l", "ft_r"}) rig.landmarks.erase(id);
+    Face one(rig, rig::adult().mesh, preview(), "adult");
     const FacePose pose = equilibrium_pose(one, with_kinematic(Kinematic::kHeadYaw, 60));
-    int beside = 0;
-    for (const auto& [id, rest] : one.head().landmarks) {
-        const auto given = rig::adult().rig.landmarks.find(id);
-        if (given != rig::adult().rig.landmarks.end() && given->second.vertex >= 0) continue;
-        if (rest.y() < 0) continue;  // nothing below the ears: the neck turns by less
-        ++beside;
-        EXPECT_LT((one.diagnostics().landmark(id) - pose.head * rest).norm(), 2e-3) << id;
-    }
-    EXPECT_GT(beside, 3);
+    for (const char* id : {"g", "bm_l", "ft_r"})
+        EXPECT_LT((one.diagnostics().landmark(id) - pose.head * one.head().landmark(id)).norm(),
+                  1e-3)
+            << id;
 }
 
 }  // namespace

@@ -177,9 +177,10 @@ void add_batch(CLI::App& app) {
         "Only check the design and print the number of clips, and estimates of time and size");
     command->add_flag("--list", arguments->list, "Only print the names of the clips, one per line");
     command->add_option("--workers", options.workers, "Clips made at once")->capture_default_str();
-    command->add_option("--part", arguments->part,
-                        "Make only this part of the clips, such as 2/8, on one of several machines "
-                        "with one file system. At the end, run without --part");
+    command->add_option(
+        "--part", arguments->part,
+        "Make only this part of the clips, such as 2/8: for several machines that share a file "
+        "system. When all parts are done, run once without --part to complete the set");
     constexpr const char* kCluster = "On a cluster";
     command
         ->add_option("--engine", arguments->engine,

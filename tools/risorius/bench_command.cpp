@@ -163,7 +163,8 @@ void run(const BenchArguments& arguments) {
 void add_bench(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bench", "Measure how fast this machine is");
     auto arguments = std::make_shared<BenchArguments>();
-    command->add_option("--rig", arguments->options.rigs, "A rig to measure. Default: rigs/adult");
+    command->add_option("--rig", arguments->options.rigs,
+                        "A rig to measure; repeat for several. Default: rigs/adult");
     command
         ->add_flag("--solids", arguments->only_solids,
                    "Measure only deformable solids of 13^3, 22^3 and 46^3 nodes, without a face")

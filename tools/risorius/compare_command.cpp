@@ -54,13 +54,14 @@ void add_compare(CLI::App& app) {
     auto arguments = std::make_shared<CompareArguments>();
     animate::RenderRequest& options = arguments->options;
     command
-        ->add_option(
-            "SCRIPT", arguments->scripts,
-            "Two scripts for the left and the right half of the picture, or one with two rigs")
+        ->add_option("SCRIPT", arguments->scripts,
+                     "Two scripts, for the left and the right half of the picture, or one script "
+                     "with --rig given twice")
         ->required();
     command
         ->add_option("-o,--out", options.out,
-                     "The file to write, as for risorius render. OUT.json, OUT.left.frames.tsv and "
+                     "The file to write: a video or a folder of PNG frames, as for risorius "
+                     "render. OUT.json, OUT.left.frames.tsv and "
                      "OUT.right.frames.tsv are written beside it")
         ->required();
     command->add_option("--rig", arguments->rigs,

@@ -131,11 +131,12 @@ void add_evaluate(CLI::App& app) {
                      "Names of expressions, separated by commas. Default: all")
         ->delimiter(',')
         ->allow_extra_args(false);
-    command->add_flag(
-        "--fit", options.fit,
-        "Also fit activations: as few as will do, from 0 to 1, starting from those of the rig");
+    command->add_flag("--fit", options.fit,
+                      "Also fit activations (0 to 1) to the measured expressions, starting from "
+                      "those of the rig and using as few muscles as possible");
     command->add_flag("--apart", options.separate_sides,
-                      "Evaluate x_L and x_R separately. Default: their sum, as x");
+                      "Evaluate the left and right sides (NAME_L, NAME_R) separately. Default: "
+                      "their sum, as NAME");
     command
         ->add_option("--quality", options.quality,
                      "Quality of the simulation: \"preview\", \"video\" or \"fine\"")

@@ -95,18 +95,20 @@ void run(const FigureArguments& arguments) {
 
 void add_figure(CLI::App& app) {
     CLI::App* command = app.add_subcommand("figure",
-                                           "Run a figure of the thesis or of another publication, "
-                                           "and compare it with the published result");
+                                           "Run the experiment behind a published figure, and "
+                                           "compare its result with the published one");
     auto arguments = std::make_shared<FigureArguments>();
     command->add_option(
         "FIGURE", arguments->options.figure,
         "Ids of --list, separated by commas, as 8a,8b; all; or an experiment file (.json)");
-    command->add_option("-o,--out", arguments->options.out,
-                        "The folder to write: new, empty, or with earlier results, which are "
-                        "replaced. It appears whole or not at all");
+    command->add_option(
+        "-o,--out", arguments->options.out,
+        "The folder to write: new, empty, or with earlier results, which are "
+        "replaced. It is written only when all is done; if the run fails, earlier results stay");
     command->add_flag("--list", arguments->list, "Print ids, titles and estimated times");
-    command->add_option("--from", arguments->options.from,
-                        "Folder with a folder for each id. Default: samples/figures");
+    command->add_option(
+        "--from", arguments->options.from,
+        "Folder of the input files: in it, a folder for each id. Default: samples/figures");
     command
         ->add_option(
             "--threads", arguments->options.threads,

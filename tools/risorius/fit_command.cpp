@@ -108,23 +108,25 @@ void add_fit(CLI::App& app) {
     command->add_option("--name", options.name, "Name of the rig. Default: that of the mesh file");
     command->add_option("--part", arguments->parts,
                         "ROLE=GROUP,GROUP: sets the role of groups of the mesh whose names do not "
-                        "tell it; docs/formats/rig.md lists the roles");
+                        "show it; repeat for several roles. docs/formats/rig.md lists the roles");
     command
         ->add_option("--tables", arguments->tables,
                      "inline: the rig contains its anatomy; reference: it names the files")
         ->capture_default_str();
     command->add_option("--standard", options.standard, "Folder of the standard anatomy");
-    command->add_flag("--solids", arguments->options.solids,
-                      "Make the muscles of standard/muscle_solids.json volume-preserving solids");
+    command->add_flag(
+        "--solids", arguments->options.solids,
+        "Simulate the muscles listed in standard/muscle_solids.json as volume-preserving solids");
     command->add_flag("--cut-lips", arguments->options.cut_lips,
                       "Cut lips that are joined in a scan; the cut mesh is written beside the rig");
     command->add_option("--report", options.report,
                         "A folder for a report of the fit with pictures and numbers");
     command->add_flag("--no-calibrate", arguments->no_calibrate,
                       "Do not calibrate: keep the standard strengths of the muscles (fastest)");
-    command->add_flag("--muscles-apart", arguments->muscles_apart,
-                      "Calibrate each muscle only by its shortening, not all muscles together by "
-                      "the expressions of the standard head (takes a third of the time)");
+    command->add_flag(
+        "--muscles-apart", arguments->muscles_apart,
+        "Faster (a third of the time): calibrate each muscle alone, until it shortens as it "
+        "should, instead of all together until expressions match those of the standard head");
     add_common(*command, arguments->common);
     std::string required;
     for (const std::string& id : rig::required_landmarks()) required += " " + id;

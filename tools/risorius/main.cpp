@@ -96,15 +96,21 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app, int ar
     return place + ": expected what risorius " + place + " --help says, found " + text;
 }
 
-/// Names the value of every option that takes text after the option: -o,--out OUT instead of TEXT.
+/// Names the value of every option that takes text after the option: -o,--out OUT instead of TEXT. Allowed values stand in the
+/// descriptions, not behind the type.
 void name_values(CLI::App& command) {
-    for (CLI::Option* option : command.get_options())
+    for (CLI::Option* option : command.get_options()) {
+        try {
+            for (int i = 0;; ++i) option->get_validator(i)->description("");
+        } catch (const CLI::OptionNotFound&) {  // there is no way to ask for their number
+        }
         if (option->get_type_name() == "TEXT" && !option->get_lnames().empty()) {
             std::string name = option->get_lnames().front();
             std::transform(name.begin(), name.end(), name.begin(),
                            [](unsigned char c) { return c == '-' ? '_' : std::toupper(c); });
             option->type_name(name);
         }
+    }
     for (CLI::App* part : command.get_subcommands({})) name_values(*part);
 }
 

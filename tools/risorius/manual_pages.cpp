@@ -138,8 +138,8 @@ std::string markdown_pages(const CLI::App& app) {
         "| 0 | The run is done. |\n"
         "| 1 | The run failed: the disk is full, memory is short, a file cannot be written, or a "
         "measured number of a figure lies outside its accepted range. |\n"
-        "| 2 | The input or the command line is wrong. The message names place, expected and "
-        "found. Nothing is left behind. |\n"
+        "| 2 | The input or the command line is wrong. The message gives the place, what was "
+        "expected and what was found. Nothing is left behind. |\n"
         "| 130 | The run was interrupted (Ctrl-C). Half-made files are removed; finished clips of "
         "a set "
         "stay. |\n";

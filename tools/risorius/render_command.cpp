@@ -116,7 +116,8 @@ void add_render(CLI::App& app) {
                      "Write ground truth of every frame into the folder OUT.passes: segmentation, "
                      "depth, normals, flow (pixels to the next frame, computed from the mesh), "
                      "masks (face oval, eyes, mouth); separate several with commas. Files are PNG "
-                     "and OpenEXR; results.json names the parts")
+                     "and OpenEXR; OUT.passes/results.json names the part for each number of the "
+                     "segmentation")
         ->delimiter(',')
         ->allow_extra_args(false);
     add_common(*command, arguments->common);

@@ -82,9 +82,9 @@ void add_view(CLI::App& command, animate::RenderRequest& options, std::string& s
     command
         .add_option_function<std::string>(
             "--gl", [](const std::string& name) { render::choose_gl(name, "--gl"); },
-            "OpenGL implementation: osmesa, in memory; egl; auto, EGL if it has a graphics "
-            "processor, or else OSMesa. The environment variable RISORIUS_GL sets it for all "
-            "commands")
+            "OpenGL implementation: osmesa, on the CPU; egl; auto, which takes EGL if it finds a "
+            "graphics processor, or else OSMesa. The environment variable RISORIUS_GL sets it for "
+            "all commands")
         ->type_name("NAME");
     command
         .add_option("--threads", options.threads,

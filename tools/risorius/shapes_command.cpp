@@ -107,8 +107,9 @@ void add_shapes(CLI::App& app) {
         ->allow_extra_args(false);
     command
         ->add_option("--formats", options.formats,
-                     "Any of \"glb\", \"obj\", \"table\" and, with --script, \"csv\" and "
-                     "\"cache\", separated by commas. Default: all but \"cache\"")
+                     "Any of glb, obj, table (shapes.json with shapes.f32) and, with --script, csv "
+                     "(live_link.csv) and cache (vertices of every frame), separated by commas. "
+                     "Default: all but cache")
         ->delimiter(',')
         ->allow_extra_args(false);
     command
@@ -122,14 +123,16 @@ void add_shapes(CLI::App& app) {
                       "Make only shapes, without correctives for the errors of their sums. "
                       "risorius render --shapes cannot play such a file");
     command
-        ->add_option("--pairs", options.pairs,
-                     "Maximum number of pairs to simulate: shapes that move the same skin "
-                     "farthest, or occur together in the script. Default: 48; for facs 160")
+        ->add_option(
+            "--pairs", options.pairs,
+            "Maximum number of pairs of shapes to simulate together. Chosen first: pairs that move "
+            "the same skin most, or that occur together in the script. Default: 48; for facs 160")
         ->check(CLI::Range(0, 10000));
     command->add_option_function<double>(
         "--corrective-tolerance-mm",
         [&options](double mm) { options.corrective_tolerance_m = 1e-3 * mm; },
-        "Sums whose maximum error is smaller get no corrective. Default: 0.3");
+        "Sums of shapes whose maximum error is below this number of mm get no corrective. Default: "
+        "0.3");
     command->add_option_function<double>(
         "--corrective-megabytes",
         [&options](double mb) { options.corrective_bytes = static_cast<long>(1e6 * mb); },

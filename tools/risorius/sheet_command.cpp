@@ -54,9 +54,10 @@ void add_sheet(CLI::App& app) {
         "--rig", options.rigs,
         "Use this rig instead of the scripts'; given several times: a row for each");
     command
-        ->add_option("--cameras", options.cameras,
-                     "Views, separated by commas: a column for each. front, three_quarter, "
-                     "profile, top, eye, nose, mouth, ear ...")
+        ->add_option(
+            "--cameras", options.cameras,
+            "Several views instead of --camera, separated by commas: a column for each view at "
+            "each time. front, three_quarter, profile, top, eye, nose, mouth, ear ...")
         ->delimiter(',')
         ->allow_extra_args(false);
     command

@@ -79,7 +79,7 @@ void add_solve(CLI::App& app) {
     command->add_option(
         "--landmarks", options.landmarks,
         "Instead of --shapes: a table with the columns time_s and ID.x_mm, ID.y_mm, ID.z_mm of "
-        "some landmarks, with the face at rest in the first row, as render --landmarks writes it");
+        "some landmarks, as from render --landmarks. The first row must show the neutral face");
     command->add_option("--only", options.only, "Names of shapes, separated by commas")
         ->delimiter(',')
         ->allow_extra_args(false);
@@ -90,16 +90,17 @@ void add_solve(CLI::App& app) {
     command
         ->add_option("--l1-weight", options.l1_weight,
                      "Penalty on activations: the cost of an activation of 1, relative to half the "
-                     "squared norm of the target")
+                     "squared norm of the displacements to match")
         ->capture_default_str();
     command
         ->add_option("--l2-weight", options.l2_weight,
-                     "Penalty on half the square of each activation, in the unit of --l1-weight")
+                     "Penalty on half the square of each activation, relative to the same norm as "
+                     "--l1-weight")
         ->capture_default_str();
     command
         ->add_option("--temporal-weight", options.temporal_weight,
                      "Penalty on half the squared change of each activation from frame to frame, "
-                     "in the unit of --l1-weight")
+                     "relative to the same norm as --l1-weight")
         ->capture_default_str();
     add_old_name(*command, "--price", "--l1-weight", options.l1_weight);
     add_old_name(*command, "--ridge", "--l2-weight", options.l2_weight);
