@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "message_of.h"
+#include "risorius/core/json_text.h"
 
 namespace risorius {
 namespace {
@@ -256,6 +257,33 @@ TEST(FormatNumber, IsTheShortestThatReadsBackTheSame) {
     // std::stod would reject the smallest denormal; strtod does not.
     for (double value : {1.0 / 3, 0.1 + 0.2, 1e300, 5e-324, -0.0})
         EXPECT_EQ(std::strtod(format_number(value).c_str(), nullptr), value);
+}
+
+TEST(JsonText, MayBeNested200TimesAndNoDeeper) {
+    const auto nested = [](int times, const std::string& inner) {
+        return std::string(static_cast<std::size_t>(times), '[') + inner +
+               std::string(static_cast<std::size_t>(times), ']');
+    };
+    // A message that quotes a value of the greatest depth
+    const JsonCursor deep = parse_json_text(nested(200, "\"[[[[\\\"[\""), "deep.json");
+    EXPECT_EQ(message_of([&] { deep.number(); }),
+              "deep.json:/: expected a number, found an array of 1");
+    const std::string message =
+        "deep.json:2:200: expected at most 200 arrays and objects in one another, found one more";
+    EXPECT_EQ(message_of([&] { parse_json_text("[\n" + nested(200, "1") + "]", "deep.json"); }),
+              message);
+    EXPECT_EQ(message_of([&] { parse_json_text("[\n" + nested(100'000, ""), "deep.json"); }),
+              message);
+}
+
+TEST(JsonText, QuotesWholeCharactersInMessages) {
+    const JsonCursor text = parse_json_text("\"" + std::string(58, 'x') + "ää\"", "cut.json");
+    EXPECT_EQ(message_of([&] { text.number(); }),
+              "cut.json:/: expected a number, found \"" + std::string(58, 'x') + "...");
+}
+
+TEST(JsonText, IsWrittenFromAnyBytes) {
+    EXPECT_EQ(json_text(Json{{"file", "a\xff.png"}}), "{\"file\":\"a\xEF\xBF\xBD.png\"}");
 }
 
 }  // namespace

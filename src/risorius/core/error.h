@@ -3,12 +3,15 @@
 /// Error, the exception for input that the user can correct. Its message names the place, then what was expected, then what was
 /// found:
 ///   rigs/anna/rig.json:/muscles/3/tendon_slack_m: expected (0, inf), found -0.01
+/// Messages are valid UTF-8 in one line without control characters, whatever the input holds, see readable_text().
 #pragma once
 
 #include <functional>
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "risorius/core/readable_text.h"
 
 namespace risorius {
 
@@ -20,12 +23,13 @@ class Error : public std::runtime_error {
 
     /// The message, in which each name of an option that option_name() has marked is replaced by `word_for(field)`.
     std::string worded(const std::function<std::string(const std::string&)>& word_for) const {
-        return put_words(marked_, word_for);
+        return readable_text(put_words(marked_, word_for));
     }
 
   private:
     explicit Error(const std::string& marked)
-        : std::runtime_error(put_words(marked, [](const std::string& field) { return field; })),
+        : std::runtime_error(
+              readable_text(put_words(marked, [](const std::string& field) { return field; }))),
           marked_(marked) {}
     static std::string put_words(const std::string& marked,
                                  const std::function<std::string(const std::string&)>& word_for) {
@@ -55,7 +59,7 @@ inline std::string option_name(const std::string& field) { return "\x01" + field
 /// then return the exit code 1.
 class RunError : public std::runtime_error {
   public:
-    using std::runtime_error::runtime_error;
+    explicit RunError(const std::string& message) : std::runtime_error(readable_text(message)) {}
 };
 
 /// A name in quotes, for messages.

@@ -4,26 +4,28 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "risorius/core/existing_file.h"
 #include "risorius/core/json_text.h"
+#include "risorius/core/readable_text.h"
+#include "risorius/core/text_lines.h"
 
 namespace risorius {
 
 namespace {
 
+/// The value in a message. parse_json_text() limits how deep it is nested.
 std::string describe(const Json& value) {
-    std::string text = value.dump();
     constexpr std::size_t kLongest = 60;
     if (value.is_object()) return "an object with " + std::to_string(value.size()) + " keys";
+    if (value.is_array() && value.size() > kLongest / 2)
+        return "an array of " + std::to_string(value.size());
+    const std::string text = json_text(value);
     if (value.is_array() && text.size() > kLongest)
         return "an array of " + std::to_string(value.size());
-    if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-    return text;
+    return shortened_text(text, kLongest);
 }
 
 std::string describe_character(char c) {
@@ -71,6 +73,10 @@ struct DuplicateKeyFinder {
 
 }  // namespace
 
+std::string json_text(const Json& value, int indent) {
+    return value.dump(indent, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace);
+}
+
 std::string format_number(double value) {
     char buffer[64];
     const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
@@ -112,20 +118,45 @@ JsonCursor::JsonCursor(std::shared_ptr<const Json> document, std::filesystem::pa
       value_(value) {}
 
 std::string read_json_text(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored))
-        throw Error(file.string(), "a JSON file", "no such file");
-    if (std::filesystem::is_directory(file, ignored))
-        throw Error(file.string(), "a JSON file", "a folder");
-    std::ifstream stream(file, std::ios::binary);
-    std::stringstream text;
-    text << stream.rdbuf();
-    if (!stream) throw Error(file.string(), "a readable JSON file", "a file that cannot be read");
-    if (text.str().empty()) throw Error(file.string(), "a JSON file", "an empty file");
-    return text.str();
+    std::string text = read_text(file, kJsonFile);
+    if (text.empty()) throw Error(file.string(), std::string(kJsonFile.name), "an empty file");
+    return text;
 }
 
+namespace {
+
+/// The place of the byte `at`, "file:line:column".
+std::string place_of(const std::string& text, std::size_t at, const std::filesystem::path& name) {
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n');
+    const std::size_t line_start = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
+    const std::size_t column = line_start == std::string::npos ? at + 1 : at - line_start;
+    return name.string() + ":" + std::to_string(line) + ":" + std::to_string(column);
+}
+
+/// Throws Error when arrays and objects are nested too deep. Code that walks through a value is recursive.
+void check_depth(const std::string& text, const std::filesystem::path& name) {
+    int depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string && c == '\\')
+            ++i;
+        else if (c == '"')
+            in_string = !in_string;
+        else if (!in_string && (c == '[' || c == '{') && ++depth > kDeepestJson)
+            throw Error(
+                place_of(text, i, name),
+                "at most " + std::to_string(kDeepestJson) + " arrays and objects in one another",
+                "one more");
+        else if (!in_string && (c == ']' || c == '}'))
+            --depth;
+    }
+}
+
+}  // namespace
+
 JsonCursor parse_json_text(const std::string& text, const std::filesystem::path& name) {
+    check_depth(text, name);
     DuplicateKeyFinder duplicates;
     Json document;
     try {
@@ -133,14 +164,10 @@ JsonCursor parse_json_text(const std::string& text, const std::filesystem::path&
     } catch (const Json::parse_error& error) {
         const std::size_t at =
             std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size());
-        const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n');
-        const std::size_t line_start = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
-        const std::size_t column = line_start == std::string::npos ? at + 1 : at - line_start;
         const std::string found = at < text.size()
                                       ? describe_character(text[at]) + " that does not belong there"
                                       : "the end of the file";
-        throw Error(name.string() + ":" + std::to_string(line) + ":" + std::to_string(column),
-                    "valid JSON", found);
+        throw Error(place_of(text, at, name), "valid JSON", found);
     } catch (const Json::out_of_range& error) {
         // The text of the exception ends with the number in quotes: "number overflow parsing '1e999'".
         const std::string text_of_error = error.what();
