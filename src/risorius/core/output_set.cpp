@@ -2,6 +2,7 @@
 #include "risorius/core/output_set.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -30,8 +31,18 @@ const char* kind_of(mode_t mode) {
     return "a device or socket";
 }
 
+/// A target as it was given, and where it is.
+struct Target {
+    fs::path shown, place;
+    std::string relative;
+    enum class Kind { kFile, kFolder, kRemoval } kind = Kind::kFile;
+};
+using Kind = Target::Kind;
+
 /// Throws Error when what is at the place cannot be replaced.
-void check_place(const fs::path& place, const fs::path& shown, bool folder) {
+void check_place(const Target& target) {
+    const auto& [shown, place, relative, kind] = target;
+    const bool folder = kind == Kind::kFolder;
     struct ::stat status {};
     if (::lstat(place.c_str(), &status) != 0) {
         if (errno == ENOENT || errno == ENOTDIR) return;
@@ -39,6 +50,7 @@ void check_place(const fs::path& place, const fs::path& shown, bool folder) {
     }
     if (folder ? !S_ISDIR(status.st_mode) : !S_ISREG(status.st_mode))
         throw Error(shown.string(), folder ? kFolder : kFile, kind_of(status.st_mode));
+    if (kind == Kind::kRemoval) return;
     if (is_input(status.st_dev, status.st_ino))
         throw Error(shown.string(), kNoInput, "one that was read");
     if (!folder) return;
@@ -98,13 +110,6 @@ class MadeFolders {
     std::vector<fs::path> made_;
 };
 
-/// A target as it was given, and where it is.
-struct Target {
-    fs::path shown, place;
-    std::string relative;
-    bool folder = false;
-};
-
 }  // namespace
 
 struct OutputSet::Impl {
@@ -117,8 +122,9 @@ struct OutputSet::Impl {
 
     fs::path fresh(const Target& target) const { return own.places().fresh(target.relative); }
 
-    fs::path add(const fs::path& shown, bool folder) {
-        Target target{.shown = shown, .place = {}, .relative = {}, .folder = folder};
+    fs::path add(const fs::path& shown, Kind kind) {
+        Target target{.shown = shown, .place = {}, .relative = {}, .kind = kind};
+        const bool folder = kind == Kind::kFolder;
         const fs::path whole = fs::absolute(shown).lexically_normal();
         const fs::path named = whole.has_filename() ? whole : whole.parent_path();
         // A link to a folder is followed.
@@ -128,10 +134,10 @@ struct OutputSet::Impl {
         if (relative.empty() || relative == "." || *relative.begin() == "..")
             throw Error(shown.string(), "a place in " + root.string(), target.place.string());
         target.relative = relative.string();
-        check_place(target.place, shown, folder);
-        own.claim("output " + target.relative, shown);
+        check_place(target);
+        own.claim({"output " + target.relative}, shown);
         const fs::path path = fresh(target);
-        make_folder(folder ? path : path.parent_path());
+        if (kind != Kind::kRemoval) make_folder(folder ? path : path.parent_path());
         targets.push_back(std::move(target));
         return path;
     }
@@ -152,11 +158,15 @@ struct OutputSet::Impl {
 std::vector<detail::Move> OutputSet::Impl::checked_moves() const {
     std::vector<detail::Move> moves;
     for (const Target& target : targets) {
-        check_place(target.place, target.shown, target.folder);
+        check_place(target);
+        const bool removes = target.kind == Kind::kRemoval;
         struct ::stat status {};
-        if (::lstat(fresh(target).c_str(), &status) != 0) detail::fail_to_write(target.shown);
-        detail::sync_tree(fresh(target), target.shown);
-        moves.push_back({target.relative, status.st_ino});
+        if (::lstat((removes ? target.place : fresh(target)).c_str(), &status) != 0) {
+            if (removes && errno == ENOENT) continue;
+            detail::fail_to_write(target.shown);
+        }
+        if (!removes) detail::sync_tree(fresh(target), target.shown);
+        moves.push_back({target.relative, status.st_ino, removes});
     }
     return moves;
 }
@@ -180,7 +190,7 @@ void OutputSet::Impl::move_all(const std::vector<detail::Move>& moves) {
 
 void OutputSet::Impl::commit() {
     const std::vector<detail::Move> moves = checked_moves();
-    const bool one_rename = moves.size() == 1 && !targets.front().folder;
+    const bool one_rename = targets.size() == 1 && targets.front().kind == Kind::kFile;
     const fs::path folder = own.places().private_folder, journal = folder / detail::kJournal,
                    part = folder / "journal.part";
     if (!one_rename) detail::write_new_file(part, detail::journal_text(moves), true, root);
@@ -205,8 +215,8 @@ OutputSet::OutputSet(const fs::path& folder, Then then) {
 }
 OutputSet::~OutputSet() = default;
 
-fs::path OutputSet::file(const fs::path& target) { return impl_->add(target, false); }
-fs::path OutputSet::folder(const fs::path& target) { return impl_->add(target, true); }
+fs::path OutputSet::file(const fs::path& target) { return impl_->add(target, Kind::kFile); }
+fs::path OutputSet::folder(const fs::path& target) { return impl_->add(target, Kind::kFolder); }
 
 fs::path OutputSet::scratch_file(const std::string& name) {
     const fs::path folder = impl_->own.places().private_folder / "scratch";
@@ -214,7 +224,13 @@ fs::path OutputSet::scratch_file(const std::string& name) {
     return folder / name;
 }
 
-void OutputSet::claim(const std::string& what) { impl_->own.claim("claim " + what, impl_->root); }
+void OutputSet::removal(const fs::path& target) { impl_->add(target, Kind::kRemoval); }
+
+void OutputSet::claim(const std::vector<std::string>& what) {
+    std::vector<std::string> lines;
+    for (const std::string& one : what) lines.push_back("claim " + one);
+    impl_->own.claim(lines, impl_->root);
+}
 
 void OutputSet::commit() { impl_->commit(); }
 
@@ -233,6 +249,8 @@ void make_folder(const fs::path& folder) {
 void write_file(const fs::path& file, std::string_view bytes) {
     if (is_private_output(file)) {
         make_folder(file.parent_path());
+        if (::unlink(file.c_str()) != 0 && errno != ENOENT)
+            detail::fail_to_write(shown_output(file));
         detail::write_new_file(file, bytes, false, shown_output(file));
         return;
     }

@@ -16,6 +16,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "risorius/core/error.h"
 
@@ -46,10 +47,12 @@ class OutputSet {
     std::filesystem::path file(const std::filesystem::path& target);
     /// Adds a folder, makes it, and returns the path to fill. At commit it takes the place of a folder of that name.
     std::filesystem::path folder(const std::filesystem::path& target);
-    /// Returns the path of a file that commit() removes.
+    /// Adds a file that is to be gone after commit(). Throws as file() does, except that an input may be removed.
+    void removal(const std::filesystem::path& target);
+    /// Returns the path of a file that is not kept.
     std::filesystem::path scratch_file(const std::string& name);
-    /// Keeps others from claiming the same, without writing anything. `what`: any text in one line.
-    void claim(const std::string& what);
+    /// Keeps others from claiming the same, without writing anything. Throws OutputInUse.
+    void claim(const std::vector<std::string>& what);
 
     /// Moves everything to its place. Throws RunError when that fails; then all targets are what they were. Throws Error when a
     /// target has become one that file() or folder() would refuse.

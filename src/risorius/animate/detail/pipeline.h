@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "risorius/core/parallel.h"
+
 namespace risorius::animate {
 
 /// Limit of the number of items that are produced and not yet consumed, in addition to one per worker.
@@ -43,9 +45,11 @@ void run_pipeline(int count, int workers, Produce produce, Transform transform, 
         if (!failure) failure = std::current_exception();
         stop = true;
     };
-    std::vector<std::thread> threads;
+    std::vector<std::jthread> threads;
+    bool consumes = false;
+    int transforming = 0;
     for (int worker = 0; worker < workers; ++worker)
-        threads.emplace_back([&, worker] {
+        transforming += add_thread(threads, [&, worker] {
             try {
                 for (;;) {
                     std::optional<std::pair<int, Item>> item;
@@ -69,7 +73,7 @@ void run_pipeline(int count, int workers, Produce produce, Transform transform, 
             }
             changed.notify_all();
         });
-    threads.emplace_back([&] {
+    consumes = add_thread(threads, [&] {
         try {
             for (int i = 0; i < count; ++i) {
                 std::optional<Result> result;
@@ -92,6 +96,17 @@ void run_pipeline(int count, int workers, Produce produce, Transform transform, 
         changed.notify_all();
     });
 
+    if (!consumes || transforming == 0) {
+        // The system has no threads for us.
+        {
+            const std::lock_guard lock(mutex);
+            stop = true;
+        }
+        changed.notify_all();
+        threads.clear();
+        for (int i = 0; i < count; ++i) consume(i, transform(0, i, produce(i)));
+        return;
+    }
     try {
         for (int i = 0; i < count; ++i) {
             {
@@ -114,7 +129,7 @@ void run_pipeline(int count, int workers, Produce produce, Transform transform, 
         all_produced = true;
     }
     changed.notify_all();
-    for (std::thread& thread : threads) thread.join();
+    threads.clear();
     if (failure) std::rethrow_exception(failure);
 }
 

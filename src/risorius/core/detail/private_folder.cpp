@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -107,13 +108,13 @@ std::string this_process() {
     return "process " + std::to_string(::getpid()) + " on " + host.data();
 }
 
-/// Who claims it; empty when the folder's owner does not.
-std::string claimed_by(const fs::path& folder, const std::string& what) {
+/// Who claims any of it; empty when the folder's owner does not.
+std::string claimed_by(const fs::path& folder, const std::set<std::string>& what) {
     std::istringstream lines(read_file(folder / kOwner, kOwnFile));
     std::string who, line;
     std::getline(lines, who);
     while (std::getline(lines, line))
-        if (line == what) return who;
+        if (what.contains(line)) return who;
     return "";
 }
 
@@ -156,17 +157,20 @@ PrivateFolder::~PrivateFolder() {
     if (!kept_) remove_private_folder(places_.private_folder);
 }
 
-void PrivateFolder::claim(const std::string& what, const fs::path& place) {
-    const std::string line = claim_line(what);
+void PrivateFolder::claim(const std::vector<std::string>& what, const fs::path& place) {
+    std::set<std::string> lines;
+    for (const std::string& one : what) lines.insert(claim_line(one));
     const FolderLock locked(places_.root);
     for (const fs::path& folder : private_folders(places_.root)) {
         if (folder == places_.private_folder) continue;
         const Descriptor owner = open_file(folder / kOwner, O_RDWR);
         if (!owner || lock(owner) != Lock::kElsewhere) continue;
-        if (const std::string who = claimed_by(folder, line); !who.empty())
+        if (const std::string who = claimed_by(folder, lines); !who.empty())
             throw OutputInUse(place.string(), "an output that no other run is writing", who);
     }
-    write_all(owner_, line + "\n", place);
+    std::string text;
+    for (const std::string& line : lines) text += line + "\n";
+    write_all(owner_, text, place);
 }
 
 }  // namespace risorius::detail

@@ -28,7 +28,7 @@ class PrivateFolder {
     PrivateFolder& operator=(const PrivateFolder&) = delete;
 
     /// Throws OutputInUse when a running process claims the same. `place` is its place in messages.
-    void claim(const std::string& what, const std::filesystem::path& place);
+    void claim(const std::vector<std::string>& what, const std::filesystem::path& place);
 
     const Places& places() const { return places_; }
     /// Leaves the folder to the next set, which finishes what the journal says.

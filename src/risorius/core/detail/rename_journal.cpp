@@ -80,6 +80,12 @@ void move_to_place(const Places& places, const Move& move) {
     const fs::path place = places.root / move.target, fresh = places.fresh(move.target),
                    former = places.former(move.target);
     const ino_t there = inode_of(place);
+    if (move.removes) {
+        if (there != move.inode) return;
+        make_parent(former, place);
+        rename_checked(place, former, place);
+        return;
+    }
     if (there == move.inode || inode_of(fresh) != move.inode) return;
     make_parent(place, place);
     if (there != 0) {
@@ -93,7 +99,7 @@ void move_to_place(const Places& places, const Move& move) {
 void move_back(const Places& places, const Move& move) {
     const fs::path place = places.root / move.target, fresh = places.fresh(move.target),
                    former = places.former(move.target);
-    if (inode_of(place) == move.inode) {
+    if (!move.removes && inode_of(place) == move.inode) {
         if (inode_of(fresh) != 0) {
             exchange(fresh, place, place);
             return;
@@ -106,7 +112,8 @@ void move_back(const Places& places, const Move& move) {
 std::string journal_text(const std::vector<Move>& moves) {
     std::string text = std::string(kFirstLine) + "\n";
     for (const Move& move : moves)
-        text += std::to_string(move.inode) + " " + in_one_line(move.target) + "\n";
+        text += std::to_string(move.inode) + (move.removes ? " - " : " + ") +
+                in_one_line(move.target) + "\n";
     return text + kLastLine + "\n";
 }
 
@@ -118,10 +125,11 @@ std::optional<std::vector<Move>> moves_of(const std::string& text) {
     while (std::getline(lines, line)) {
         if (line == kLastLine) return moves;
         const std::size_t gap = line.find(' ');
-        if (gap == std::string::npos) return {};
+        if (gap == std::string::npos || gap + 2 >= line.size() || line[gap + 2] != ' ') return {};
         Move move;
+        move.removes = line[gap + 1] == '-';
         move.inode = std::strtoull(line.c_str(), nullptr, 10);
-        move.target = from_one_line(line.substr(gap + 1));
+        move.target = from_one_line(line.substr(gap + 3));
         if (move.inode == 0 || !stays_below(move.target)) return {};
         moves.push_back(std::move(move));
     }

@@ -17,6 +17,7 @@ struct Move {
     std::string
         target;  ///< relative to the folder of the set; also relative to "new" in the private folder
     ino_t inode = 0;
+    bool removes = false;  ///< the target is moved away, and nothing comes in its place
 };
 
 /// The folders of a set: `root`/target is where outputs appear, `private_folder` holds "new" and "former" beside the journal.
