@@ -10,11 +10,11 @@
 #include <fstream>
 #include <functional>
 
+#include "message_of.h"
 #include "risorius/core/detail/private_folder.h"
 #include "risorius/core/input_log.h"
 #include "risorius/core/progress_monitor.h"
 #include "risorius/core/read_file.h"
-#include "message_of.h"
 #include "temporary_folder.h"
 
 namespace risorius {

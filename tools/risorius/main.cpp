@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <regex>
 #include <string>
@@ -173,6 +174,8 @@ int main(int argc, char** argv) {
     risorius::cli::catch_stop_signals();
     const int code = run(argc, argv);
     risorius::cli::end_of_run();
+    // At once: what libraries do at the end may take seconds.
+    if (code == kInterrupted) std::_Exit(code);
     if (is_printed() || code != kDone) return code;
     return say(kFailed, "standard output: the report cannot be written");
 }

@@ -87,13 +87,13 @@ void catch_signal(int signal) {
 void catch_stop_signals() {
     ::sem_init(&signals, 0, 0);
     ending();
-    for (const int signal : {SIGHUP, SIGINT, SIGTERM}) catch_signal(signal);
     for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
     try {
         std::thread(watch).detach();
     } catch (const std::system_error&) {
-        return;  // no thread to be had: the run still takes notice between its steps
+        return;  // no thread to be had: signals end the program, and the next run removes what it left
     }
+    for (const int signal : {SIGHUP, SIGINT, SIGTERM}) catch_signal(signal);
 }
 
 bool stop_is_asked() { return stop_asked && !outputs_are_decided(); }

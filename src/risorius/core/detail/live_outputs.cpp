@@ -104,9 +104,10 @@ bool abandon_outputs() {
         std::error_code failure;
         for (int i = 0; i < kTries && fs::exists(folder, failure); ++i)
             fs::remove_all(folder, failure);
+    }
+    for (const auto& [folder, output] : all.outputs)
         for (auto made = output.made.rbegin(); made != output.made.rend(); ++made)
             ::rmdir(made->c_str());
-    }
     return true;
 }
 
