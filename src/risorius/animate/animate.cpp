@@ -8,6 +8,7 @@
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
+#include "risorius/core/read_file.h"
 #include "risorius/media/image_file.h"
 #include "risorius/media/sha256.h"
 #include "risorius/media/video_writer.h"
@@ -20,6 +21,8 @@ namespace risorius::animate {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr FileKind kSound{"a file with sound", 1'000'000 * kMegabyte};
 
 // The main output: a video, or a single picture for a still.
 class Output {
@@ -66,6 +69,7 @@ RunRecord animate(const RenderRequest& request, const ProgressMonitor& monitor) 
                    table_file = report::output_path(job.out, ".frames.tsv");
     report::check_record(record_file);
     report::check_table(table_file);
+    if (request.audio) check_file(*request.audio, kSound);  // so that it is known as an input
     OutputSet outputs(folder_of_output(job.out));
     Output output(job, outputs);
     const fs::path record_text = outputs.file(record_file), table_text = outputs.file(table_file);

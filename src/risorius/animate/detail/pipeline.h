@@ -28,10 +28,10 @@ template <typename Produce, typename Transform, typename Consume>
 void run_pipeline(int count, int workers, Produce produce, Transform transform, Consume consume) {
     using Item = decltype(produce(0));
     using Result = decltype(transform(0, 0, produce(0)));
-    if (workers < 1) {
+    const auto run_alone = [&] {
         for (int i = 0; i < count; ++i) consume(i, transform(0, i, produce(i)));
-        return;
-    }
+    };
+    if (workers < 1) return run_alone();
     std::mutex mutex;
     std::condition_variable changed;
     std::deque<std::pair<int, Item>> produced;
@@ -46,6 +46,13 @@ void run_pipeline(int count, int workers, Produce produce, Transform transform, 
         stop = true;
     };
     std::vector<std::jthread> threads;
+    const auto change = [&](const auto& what) {
+        {
+            const std::lock_guard lock(mutex);
+            what();
+        }
+        changed.notify_all();
+    };
     bool consumes = false;
     int transforming = 0;
     for (int worker = 0; worker < workers; ++worker)
@@ -62,11 +69,7 @@ void run_pipeline(int count, int workers, Produce produce, Transform transform, 
                         produced.pop_front();
                     }
                     Result result = transform(worker, item->first, std::move(item->second));
-                    {
-                        const std::lock_guard lock(mutex);
-                        ready.emplace(item->first, std::move(result));
-                    }
-                    changed.notify_all();
+                    change([&] { ready.emplace(item->first, std::move(result)); });
                 }
             } catch (...) {
                 fail();
@@ -84,11 +87,7 @@ void run_pipeline(int count, int workers, Produce produce, Transform transform, 
                     result.emplace(std::move(ready.extract(i).mapped()));
                 }
                 consume(i, std::move(*result));
-                {
-                    const std::lock_guard lock(mutex);
-                    ++consumed;
-                }
-                changed.notify_all();
+                change([&] { ++consumed; });
             }
         } catch (...) {
             fail();
@@ -97,15 +96,9 @@ void run_pipeline(int count, int workers, Produce produce, Transform transform, 
     });
 
     if (!consumes || transforming == 0) {
-        // The system has no threads for us.
-        {
-            const std::lock_guard lock(mutex);
-            stop = true;
-        }
-        changed.notify_all();
+        change([&] { stop = true; });  // the system has no threads for us
         threads.clear();
-        for (int i = 0; i < count; ++i) consume(i, transform(0, i, produce(i)));
-        return;
+        return run_alone();
     }
     try {
         for (int i = 0; i < count; ++i) {
@@ -115,20 +108,12 @@ void run_pipeline(int count, int workers, Produce produce, Transform transform, 
                 if (stop) break;
             }
             Item item = produce(i);
-            {
-                const std::lock_guard lock(mutex);
-                produced.emplace_back(i, std::move(item));
-            }
-            changed.notify_all();
+            change([&] { produced.emplace_back(i, std::move(item)); });
         }
     } catch (...) {
         fail();
     }
-    {
-        const std::lock_guard lock(mutex);
-        all_produced = true;
-    }
-    changed.notify_all();
+    change([&] { all_produced = true; });
     threads.clear();
     if (failure) std::rethrow_exception(failure);
 }
