@@ -159,6 +159,7 @@ void VideoWriter::finish() {
     impl_->run([&] {
         if (impl_->encoder) impl_->encoder->finish();
         if (impl_->own) impl_->own->commit();
+        impl_->own.reset();
     });
     impl_->finished = true;
 }

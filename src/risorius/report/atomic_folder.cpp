@@ -82,6 +82,7 @@ void AtomicFolder::commit() {
     // Checked again, because a run may take minutes.
     check_results_folder(folder_);
     own_->commit();
+    own_.reset();
 }
 
 }  // namespace risorius::report
