@@ -305,6 +305,7 @@ ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& mo
     Json json = report.json();
     json[report::kFilesKey] = written;
     report::write_text(folder.partial() / "results.json", json.dump(2) + "\n");
+    monitor.throw_if_stopped();
     folder.commit();
     return report;
 }

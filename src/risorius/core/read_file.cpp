@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "risorius/core/error.h"
+#include "risorius/core/input_log.h"
 
 namespace risorius {
 
@@ -28,6 +29,7 @@ class InputFile {
             if (::fstat(descriptor_, &status_) != 0) fail(reason());
             check_type();
             check_size();
+            note_input(status_.st_dev, status_.st_ino);
         } catch (...) {
             ::close(descriptor_);
             throw;

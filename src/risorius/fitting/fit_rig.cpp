@@ -173,21 +173,63 @@ void check_parts(const FitOptions& options, const geom::PolygonMesh& mesh) {
     }
 }
 
-// Writes the rig and, if it was changed, the mesh.
-void write_files(const FitOptions& options, const fs::path& standard, bool mesh_changed,
-                 const geom::PolygonMesh& mesh, rig::RigDescription& rig) {
-    if (options.out.has_parent_path()) {
-        std::error_code failure;
-        fs::create_directories(options.out.parent_path(), failure);
-        if (failure) throw RunError(options.out.parent_path().string() + ": " + failure.message());
+// The outputs of a fit: the rig, the mesh if it was changed, and the report. They appear together, unless the report is to be in
+// a folder elsewhere.
+class FitOutputs {
+  public:
+    FitOutputs(const FitOptions& options, bool mesh_changed) : options_(options) {
+        rig_ = options.out;
+        if (mesh_changed) mesh_ = changed_mesh_file(options.out);
+        if (!is_private_output(options.out)) {
+            own_.emplace(folder_of_output(options.out));
+            rig_ = own_->file(options.out);
+            if (mesh_changed) mesh_ = own_->file(mesh_);
+        }
+        if (!options.report.empty()) add_report();
     }
-    if (mesh_changed) {
-        rig.mesh_file = changed_mesh_file(options.out);
-        io::write_obj(mesh, rig.mesh_file);
+
+    // Writes the rig and, if it was changed, the mesh.
+    void write(const fs::path& standard, const geom::PolygonMesh& mesh,
+               rig::RigDescription& rig) const {
+        if (!mesh_.empty()) {
+            rig.mesh_file = changed_mesh_file(options_.out);
+            io::write_obj(mesh, mesh_);
+        }
+        rig::write_rig(rig, rig_,
+                       {.standard_folder = standard,
+                        .inline_tables = options_.inline_tables,
+                        .place = options_.out});
     }
-    rig::write_rig(rig, options.out,
-                   {.standard_folder = standard, .inline_tables = options.inline_tables});
-}
+    // The folder of the report; empty without one.
+    fs::path report() const { return report_ ? report_->partial() : fs::path(); }
+
+    void commit() {
+        if (report_) {
+            report::check_results_folder(options_.report);
+            report_->commit();
+        }
+        if (own_) own_->commit();
+    }
+
+  private:
+    void add_report() {
+        const fs::path real = report::real_results_folder(options_.report),
+                       root = report::real_results_folder(
+                           fs::absolute(folder_of_output(options_.out)));
+        const fs::path below = real.lexically_relative(root);
+        if (own_ && !below.empty() && below != "." && *below.begin() != "..") {
+            report::check_results_folder(options_.report);
+            report_.emplace(own_->folder(real));
+        } else {
+            report_.emplace(options_.report, OutputSet::Then::kRunGoesOn);
+        }
+    }
+
+    const FitOptions& options_;
+    std::optional<OutputSet> own_;
+    fs::path rig_, mesh_;
+    std::optional<report::AtomicFolder> report_;
+};
 
 void report_head(const rig::RigDescription& rig, const face::Face& face,
                  const LandmarkPositions& landmarks, FitReport& report) {
@@ -273,8 +315,7 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
             options.out.string(),
             "a name for the rig under which the changed mesh does not take the place of yours",
             changed_mesh_file(options.out).string());
-    std::optional<report::AtomicFolder> folder;
-    if (!options.report.empty()) folder.emplace(options.report);
+    FitOutputs outputs(options, report.lips_cut || regrouped);
     face::Face face(rig, mesh, face::quality_named("video"), options.out.string());
     const rig::Head& head = face.head();
 
@@ -282,19 +323,19 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
     if (options.calibrate) scale_muscles(face, options, standard, monitor, rig, report);
 
     // Write the rig and the report.
-    write_files(options, standard, report.lips_cut || regrouped, mesh, rig);
+    outputs.write(standard, mesh, rig);
     report_head(rig, face, landmarks, report);
     const BoneEstimate bone = bone_estimate(head, rig, face.diagnostics().shell());
     report.bone = bone_figures(bone);
     if (report.bone.through_skin > 0)
         report.notes.push_back(std::to_string(report.bone.through_skin) +
                                " points of bone lie outside of the skin: look at the report");
-    if (folder) {
-        media::write_png(fit_picture(head, bone, rig, mesh), folder->partial() / kFitPicture);
-        write_fit_report(report, rig, folder->partial());
-        folder->commit();
+    if (const fs::path folder = outputs.report(); !folder.empty()) {
+        media::write_png(fit_picture(head, bone, rig, mesh), folder / kFitPicture);
+        write_fit_report(report, rig, folder);
     }
     monitor.report(1, "done");
+    outputs.commit();
     return report;
 }
 

@@ -172,8 +172,8 @@ SculptReport sculpt_head(const SculptOptions& options, const ProgressMonitor& mo
     }
     std::sort(report.files.begin(), report.files.end());
     report::write_text(partial / kResults, report.json().dump(2) + "\n");
-    folder.commit();
     monitor.report(1, "done");
+    folder.commit();
     return report;
 }
 

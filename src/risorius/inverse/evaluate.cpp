@@ -222,6 +222,7 @@ Evaluation evaluate(const EvaluateOptions& options, const ProgressMonitor& monit
     }
     if (folder) {
         write_report(out, files, face.head(), area, options, folder->partial(), monitor);
+        monitor.throw_if_stopped();
         folder->commit();
     }
     return out;

@@ -341,6 +341,7 @@ SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor
     Json json = report.json();
     json[report::kFilesKey] = {"results.json", "script.json"};
     report::write_text(folder.partial() / "results.json", json.dump(2) + "\n");
+    monitor.throw_if_stopped();
     folder.commit();
     return report;
 }

@@ -11,8 +11,8 @@
 /// Colour: the sRGB-encoded values become R'G'B' of BT.709 unchanged, as players assume. Matroska and WebM round times to a
 /// millisecond.
 ///
-/// Everything is written under a temporary name beside the target, which finish() renames. A writer that is abandoned leaves
-/// nothing.
+/// A target below the private folder of an OutputSet is written straight away, and the set decides about it. Any other is a set
+/// of its own, which finish() commits. A writer that is abandoned leaves nothing.
 #pragma once
 
 #include <filesystem>
@@ -57,7 +57,7 @@ class VideoWriter {
     VideoWriter& operator=(const VideoWriter&) = delete;
 
     void append(const Image& frame);  ///< throws RunError, for instance when the disk is full
-    void finish();                    ///< flushes, closes, renames; throws RunError
+    void finish();                    ///< flushes and closes; throws RunError
     int frames() const;
 
   private:

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "risorius/core/error.h"
+#include "risorius/core/input_log.h"
 #include "risorius/core/json_cursor.h"
 
 namespace risorius::report {
@@ -20,6 +21,7 @@ fs::path output_path(const fs::path& out, const char* ending) {
 
 void check_overwritten(const fs::path& file, const std::vector<std::string_view>& formats,
                        const std::string& expected) {
+    const ReadingFormerOutput former;
     if (!file.has_filename() || fs::is_directory(file))
         throw Error(file.string(), expected, "a folder");
     if (!fs::exists(file)) return;
@@ -36,6 +38,7 @@ void check_record(const fs::path& record) {
 }
 
 void check_table(const fs::path& table) {
+    const ReadingFormerOutput former;
     if (!fs::exists(table)) return;
     std::string first;
     std::getline(std::ifstream(table), first);

@@ -10,10 +10,12 @@
 #include <thread>
 
 #include "risorius/core/error.h"
+#include "risorius/core/output_set.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/run_program.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/stimuli/detail/luminance_match.h"
+#include "risorius/stimuli/detail/own_files.h"
 #include "risorius/stimuli/detail/stimulus_set.h"
 
 namespace risorius::stimuli {
@@ -105,8 +107,7 @@ void add_failures(const fs::path& code, std::vector<std::pair<std::string, std::
 std::string slurm_script(const BatchOptions& batch, const SlurmOptions& slurm, int tasks) {
     // Where the part stands, the shell puts the number of the task.
     const std::string part = "TASK/" + std::to_string(tasks);
-    std::string script =
-        "#!/bin/sh\n# A part of a stimulus set, made by one task of a job array.\nexec";
+    std::string script = "#!/bin/sh\n" + std::string(kJobScriptMark) + "\nexec";
     for (const std::string& word : slurm.part_command(fs::absolute(batch.design),
                                                       fs::absolute(batch.out), slurm.workers, part))
         script += " " + (word == part ? "\"$SLURM_ARRAY_TASK_ID/" + std::to_string(tasks) + "\""
@@ -139,10 +140,11 @@ class Rounds {
                 while (job.goes_on()) {
                     monitor_.report(1 - static_cast<double>(missing.size()) / all,
                                     std::to_string(missing.size()) + " " + what + " left");
-                    std::this_thread::sleep_for(kBetweenQueries);
+                    wait(kBetweenQueries);
                     missing = find_missing();
                 }
             } catch (const Interrupted&) {
+                const UninterruptedStep step;
                 job.cancel();
                 throw;
             }
@@ -152,6 +154,15 @@ class Rounds {
     }
 
   private:
+    /// Throws Interrupted soon after the run was asked to stop.
+    void wait(std::chrono::milliseconds time) const {
+        constexpr auto kPause = std::chrono::milliseconds(50);
+        for (; time.count() > 0; time -= kPause) {
+            monitor_.throw_if_stopped();
+            std::this_thread::sleep_for(kPause);
+        }
+    }
+
     const BatchOptions& batch_;
     const SlurmOptions& slurm_;
     int tasks_;
@@ -165,7 +176,7 @@ BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& s
                                 const ProgressMonitor& monitor) {
     const report::Stopwatch time;
     BatchPlan plan = plan_batch(batch.design);
-    check_batch_folder(batch.out);
+    check_own_folder(batch.out);
     BatchReport report;
     report.name = plan.name;
     const int tasks = std::clamp(slurm.tasks, 1, static_cast<int>(plan.clips.size()));
@@ -213,7 +224,7 @@ BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& s
     if (report.failed.empty()) {
         for (const auto& entry : fs::directory_iterator(batch.out / "code"))
             if (entry.path().filename().string().rfind("slurm", 0) == 0) fs::remove(entry.path());
-        write_set(plan, batch.design, batch.out);
+        write_set(plan, batch.design, batch.out, monitor);
         report.complete = true;
     }
     report.seconds = time.seconds();

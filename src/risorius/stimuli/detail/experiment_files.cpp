@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
-#include "risorius/report/atomic_file.h"
 #include "risorius/stimuli/detail/experiment_programs.h"
 
 namespace risorius::stimuli {
@@ -138,8 +137,8 @@ void check_experiment(BatchPlan& plan) {
                              without.front() + (without.size() > 1 ? " the first" : ""));
 }
 
-std::vector<fs::path> write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
-                                       const fs::path& folder) {
+void write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
+                      const WriteFile& write_below) {
     const design::ExperimentOptions& experiment = *plan.experiment;
     const std::vector<Json> rows = condition_rows(plan, records);
     Json answers = Json::array();
@@ -152,12 +151,8 @@ std::vector<fs::path> write_experiment(const BatchPlan& plan, const std::vector<
                         {"repetitions", experiment.repetitions},
                         {"fixation_s", experiment.fixation_s},
                         {"background", screen_colour(plan)}};
-    std::vector<fs::path> files;
     const auto write = [&](const char* name, const std::string& text) {
-        const fs::path file = fs::path("experiment") / name;
-        fs::create_directories((folder / file).parent_path());
-        report::write_text(folder / file, text);
-        files.push_back(file);
+        write_below(fs::path("experiment") / name, text);
     };
     write("conditions.csv", csv_table(rows));
     write("settings.json", settings.dump(2) + "\n");
@@ -167,7 +162,6 @@ std::vector<fs::path> write_experiment(const BatchPlan& plan, const std::vector<
             write("index.html", jspsych_page(plan.name, experiment.jspsych_from, settings.dump(1),
                                              Json(rows).dump(1)));
     }
-    return files;
 }
 
 }  // namespace risorius::stimuli
