@@ -9,6 +9,7 @@
 #include <random>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 
 namespace risorius::design {
 
@@ -70,11 +71,11 @@ void add_sound(const ConditionSet& set, const Parameters& values, Condition& con
     if (!set.audio) return;
     const Json file = values.filled(*set.audio);
     if (file.is_null() || file == "") return;
-    if (!file.is_string()) set.audio->fail("the name of a file", file.dump());
+    if (!file.is_string()) set.audio->fail("the name of a file", json_text(file));
     condition.audio = set.audio->folder() / file.get<std::string>();
     if (!set.audio_start_s) return;
     const Json start = values.filled(*set.audio_start_s);
-    if (!start.is_number()) set.audio_start_s->fail("a number", start.dump());
+    if (!start.is_number()) set.audio_start_s->fail("a number", json_text(start));
     condition.audio_start_s = start.get<double>();
 }
 

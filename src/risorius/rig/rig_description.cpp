@@ -8,6 +8,7 @@
 
 #include "risorius/core/data_folder.h"
 #include "risorius/core/existing_file.h"
+#include "risorius/core/json_text.h"
 #include "risorius/rig/calibration.h"
 
 namespace risorius::rig {
@@ -353,7 +354,7 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     const std::filesystem::path partial = file.string() + ".part";
     {
         std::ofstream stream(partial, std::ios::binary);
-        stream << json.dump(1, ' ') << "\n";
+        stream << json_text(json, 1) << "\n";
         stream.flush();
         if (!stream) {
             std::error_code ignored;

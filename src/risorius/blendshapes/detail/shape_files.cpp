@@ -9,6 +9,7 @@
 #include "risorius/blendshapes/detail/corrective_drivers.h"
 #include "risorius/blendshapes/detail/shape_correctives.h"
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/io/read_mesh.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/folder_name.h"
@@ -186,7 +187,7 @@ std::vector<std::string> write_shape_table(const scene::RigFiles& files, const r
     }
     numbers.close();
     if (!numbers) throw RunError("cannot write " + (folder / "shapes.f32").string());
-    report::write_text(folder / "shapes.json", json.dump(1) + "\n");
+    report::write_text(folder / "shapes.json", json_text(json, 1) + "\n");
     return {"shapes.json", "shapes.f32"};
 }
 
@@ -219,7 +220,7 @@ std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const 
                     {"file", "cache.f32"},
                     {"fps", animation.fps},
                     {"units_per_metre", 1 / head.frame.metres_per_unit}};
-    report::write_text(folder / "cache.json", json.dump(1) + "\n");
+    report::write_text(folder / "cache.json", json_text(json, 1) + "\n");
     return {"cache.json", "cache.f32"};
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "risorius/core/error.h"
+#include "risorius/core/read_file.h"
 
 namespace risorius::media::detail {
 
@@ -120,19 +121,7 @@ void write_whole(const fs::path& file, const void* bytes, std::size_t count) {
 }
 
 std::vector<unsigned char> read_whole(const fs::path& file, const char* expected) {
-    std::error_code ignored;
-    if (!fs::exists(file, ignored)) throw Error(file.string(), expected, "no such file");
-    if (fs::is_directory(file, ignored)) throw Error(file.string(), expected, "a folder");
-    Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-    std::vector<unsigned char> bytes;
-    std::vector<unsigned char> block(1 << 20);
-    for (;;) {
-        const ssize_t got = in.get() < 0 ? -1 : ::read(in.get(), block.data(), block.size());
-        if (got < 0 && in.get() >= 0 && errno == EINTR) continue;
-        if (got < 0) throw Error(file.string(), expected, "a file that cannot be read");
-        if (got == 0) return bytes;
-        bytes.insert(bytes.end(), block.begin(), block.begin() + got);
-    }
+    return risorius::read_bytes(file, {expected, 2000 * kMegabyte});
 }
 
 }  // namespace risorius::media::detail

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "risorius/animate/frame_rows.h"
 #include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/read_file.h"
 #include "risorius/core/version.h"
 #include "risorius/media/image_file.h"
 #include "risorius/media/sha256.h"
@@ -127,10 +127,7 @@ Json portable_record(const animate::RunRecord& record) {
 }
 
 std::string text_of_file(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream out;
-    out << in.rdbuf();
-    return out.str();
+    return read_file(file, {"a text file", 256 * kMegabyte});
 }
 
 double ClipPlan::seconds() const {
@@ -147,8 +144,8 @@ void ClipPlan::match(const media::Tone& matched) {
     tone = matched;
     const media::ToneCurve curve(matched);
     for (std::uint8_t& byte : background) byte = curve.of(byte);
-    content_sha256 = animate::sha256_of_text(
-        Json{{"content", content_sha256}, {"gain", tone->gain}, {"offset", tone->offset}}.dump());
+    content_sha256 = animate::sha256_of_text(json_text(
+        Json{{"content", content_sha256}, {"gain", tone->gain}, {"offset", tone->offset}}));
 }
 
 namespace {
@@ -202,7 +199,7 @@ std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256
             rendered["files"].push_back(
                 media::sha256_of_file(file.is_relative() ? condition.folder / file : file));
     }
-    return animate::sha256_of_text(rendered.dump());
+    return animate::sha256_of_text(json_text(rendered));
 }
 
 /// The checksum of everything that the clip depends on.
@@ -225,7 +222,7 @@ std::string content_sha256_of(const ClipPlan& plan) {
         content["sound"] = {{"file", plan.sound->sha256},
                             {"offset_samples", plan.sound->offset_samples},
                             {"gain_db", plan.sound->gain_db}};
-    return animate::sha256_of_text(content.dump());
+    return animate::sha256_of_text(json_text(content));
 }
 
 }  // namespace
@@ -259,7 +256,7 @@ ClipPlan plan_clip(const design::Condition& condition, const design::Design& des
                                design.match.loudness_lufs, json.place());
     const std::string rig_sha256 = sha256_of_rig(*input);
     plan.scene_sha256 = animate::sha256_of_text(
-        Json{rig_sha256, clips.quality, condition.script.value("view", Json())}.dump());
+        json_text(Json{rig_sha256, clips.quality, condition.script.value("view", Json())}));
     plan.render_sha256 = render_sha256_of(plan, rig_sha256);
     plan.content_sha256 = content_sha256_of(plan);
     return plan;
@@ -321,10 +318,10 @@ namespace {
 void write_clip_script(const ClipPlan& plan, const fs::path& folder) {
     const fs::path script = folder / script_file(plan);
     fs::create_directories(script.parent_path());
-    report::write_text(
-        script,
-        relocated(plan.condition.script, plan.condition.folder, script.parent_path()).dump(2) +
-            "\n");
+    report::write_text(script, json_text(relocated(plan.condition.script, plan.condition.folder,
+                                                   script.parent_path()),
+                                         2) +
+                                   "\n");
 }
 
 /// The unmatched render of a clip: an existing one, or a new one.
@@ -440,7 +437,7 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
     Json record = sidecar_of(plan, std::move(shown), pictures);
     for (const fs::path& file : files.listed())
         record["files"][file.generic_string()] = media::sha256_of_file(folder / file);
-    report::write_text(folder / files.sidecar, record.dump(2) + "\n");
+    report::write_text(folder / files.sidecar, json_text(record, 2) + "\n");
     if (unmatched && !plan.render_is_shared) remove_unmatched_render(plan, folder);
 }
 

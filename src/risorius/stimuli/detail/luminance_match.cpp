@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/plot/write_chart.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
@@ -131,7 +132,7 @@ std::vector<fs::path> write_luminance_report(const BatchPlan& plan,
                     {"after", described(of.after)},
                     {"greatest_cut_off", of.cut_off}};
     report::write_text(folder / below / "luminance.tsv", table);
-    report::write_text(folder / below / "luminance.json", json.dump(2) + "\n");
+    report::write_text(folder / below / "luminance.json", json_text(json, 2) + "\n");
     std::vector<fs::path> files{below / "luminance.tsv", below / "luminance.json"};
     for (const plot::Chart& chart :
          {chart_of("mean", "mean of luminance", records, &media::LuminanceSums::mean),

@@ -6,6 +6,7 @@
 
 #include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/media/sha256.h"
 #include "risorius/media/video_reader.h"
 #include "risorius/report/atomic_file.h"
@@ -109,13 +110,12 @@ void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker) {
     media::LuminanceSums sums;
     for (int frame = 0; frame < reader.frames(); ++frame)
         sums.add(reader.frame(frame), measured_part(plan, rows, frame));
-    report::write_text(record_file, Json{{"film_sha256", plan.render_sha256},
-                                         {"video_sha256", media::sha256_of_file(video_file)},
-                                         {"table_sha256", media::sha256_of_file(table_file)},
-                                         {"luminance", json_of(sums)},
-                                         {"run", portable_record(result.record)}}
-                                            .dump(1) +
-                                        "\n");
+    const Json record{{"film_sha256", plan.render_sha256},
+                      {"video_sha256", media::sha256_of_file(video_file)},
+                      {"table_sha256", media::sha256_of_file(table_file)},
+                      {"luminance", json_of(sums)},
+                      {"run", portable_record(result.record)}};
+    report::write_text(record_file, json_text(record, 1) + "\n");
 }
 
 std::optional<media::LuminanceSums> measured_luminance(const ClipPlan& plan,
