@@ -39,6 +39,7 @@ TEST(Reading, OnlyCoreOpensFilesToRead) {
     expect_none(
         R"(ifstream|filebuf|\bfopen\b|rdbuf|O_RDONLY|O_RDWR)",
         {{"src/risorius/core/file_reader.cpp", "opens every file"},
+         {"src/risorius/plot/detail/run_gnuplot.cpp", "gives /dev/null to a program"},
          {"src/risorius/io/", "moves to core/read_file with the limits of meshes"},
          {"src/risorius/media/picture_file.cpp", "moves to core/read_file with the meshes"},
          {"src/risorius/stimuli/detail/stimulus_set.cpp", "moves with the manifest of sets"}},
