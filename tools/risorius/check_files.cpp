@@ -48,13 +48,30 @@ void note_late_events(const track::ScriptDescription& script, CheckResult& resul
             note("\"" + event.expression + "\"", "has gone back", until + event.offset_s);
 }
 
+/// Adds a note for each channel and event that changes nothing in any frame.
+void note_idle_channels(const track::ScriptDescription& script, CheckResult& result) {
+    for (const track::ChannelTrack& channel : script.channels)
+        if (std::all_of(channel.keys.begin(), channel.keys.end(),
+                        [](const track::Key& key) { return key.value == 0; }))
+            result.notes.push_back("\"" + channel.name + "\" is 0 in every key and never acts");
+    for (const track::ExpressionEvent& event : script.expressions)
+        if (event.intensity == 0)
+            result.notes.push_back("\"" + event.expression + "\" has an intensity of 0");
+    for (const track::BlinkEvent& event : script.blinks)
+        if (event.intensity == 0)
+            result.notes.push_back("the blink at " + format_number(event.start_s) +
+                                   " s has an intensity of 0");
+}
+
 void check_script(const JsonCursor& json, CheckResult& result) {
     const track::ScriptHeader header = track::read_script_header(json);
     existing_file(json.at("rig"));
     const scene::RigFiles files = scene::read_rig_files(header.rig_file);
-    note_late_events(
-        track::read_script(json, files.rig.channels(), files.rig.facs, files.rig.expressions),
-        result);
+    const track::ScriptDescription script =
+        track::read_script(json, files.rig.channels(), files.rig.facs, files.rig.expressions);
+    result.notes = script.notes;
+    note_late_events(script, result);
+    note_idle_channels(script, result);
     rig::place_head(files.rig, files.mesh, files.place());
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/fitting/fit_rig.h"
 #include "risorius/rig/head.h"
 #include "tools/risorius/commands.h"
@@ -87,7 +88,7 @@ void run(FitArguments& arguments) {
         report = fitting::fit_rig(arguments.options, bar.monitor());
     }
     if (arguments.common.json)
-        std::printf("%s\n", report.json().dump(2).c_str());
+        std::printf("%s\n", json_text(report.json(), 2).c_str());
     else if (!arguments.common.quiet)
         print(report);
 }

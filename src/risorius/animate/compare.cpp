@@ -6,6 +6,7 @@
 
 #include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
+#include "risorius/core/input_log.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/media/sha256.h"
@@ -103,6 +104,7 @@ Json compare(const RenderRequest& left_request, const RenderRequest& right_reque
         });
         side.finish();
     }
+    const ReadingFormerOutput own;
     media::VideoReader before(kept);
     Image on_left, on_right;
     int shown = 0;

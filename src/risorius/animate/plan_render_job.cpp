@@ -47,7 +47,7 @@ media::VideoOptions video_options(const RenderRequest& request, const RenderJob&
     if (request.audio_offset && !request.audio)
         throw Error(option_name("audio_offset"), "a recording, by " + option_name("audio"), "none");
     if (!request.audio) return video;
-    video.sound = std::make_shared<media::Sound>(media::read_recording(*request.audio));
+    video.sound = std::make_shared<media::Recording>(media::open_recording(*request.audio));
     video.sound_offset_samples = request.audio_offset.value_or(0);
     const double at_s = static_cast<double>(video.sound_offset_samples) / video.sound->rate_hz;
     const double length_s = static_cast<double>(video.sound->length()) / video.sound->rate_hz;

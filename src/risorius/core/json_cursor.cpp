@@ -73,6 +73,17 @@ struct DuplicateKeyFinder {
 
 }  // namespace
 
+Json json_or_null(std::string_view text) {
+    int depth = 0, deepest = 0;  // brackets in strings count too: this refuses more than it has to
+    for (const char c : text) {
+        if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+        if (c == ']' || c == '}') --depth;
+    }
+    if (deepest > kDeepestJson) return nullptr;
+    Json value = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+    return value.is_discarded() ? Json() : value;
+}
+
 std::string json_text(const Json& value, int indent) {
     return value.dump(indent, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace);
 }

@@ -40,7 +40,7 @@ struct VideoOptions {
     std::optional<int> bits = {};  ///< of PNG frames, 8 or 16
     bool alpha = false;            ///< frames may be transparent even if the first one is not
     /// The sound of the video. It is cut, or extended with silence, to the length of the video.
-    std::shared_ptr<const Sound> sound = {};
+    std::shared_ptr<const Recording> sound = {};
     /// Number of samples from the first frame to the first sample, at the sound's own rate.
     std::int64_t sound_offset_samples = 0;
 };

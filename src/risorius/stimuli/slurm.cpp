@@ -3,14 +3,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
+#include "risorius/core/text_lines.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/run_program.h"
 #include "risorius/report/stopwatch.h"
@@ -88,17 +89,24 @@ class Job {
     std::string id_;
 };
 
+constexpr FileKind kTaskLog{"the log of a task", 256 * kMegabyte};
+
 /// Adds the messages of failed clips from the logs of the tasks.
 void add_failures(const fs::path& code, std::vector<std::pair<std::string, std::string>>& failed) {
     for (auto& [clip, why] : failed)
         for (const auto& entry : fs::directory_iterator(code)) {
             if (entry.path().extension() != ".log") continue;
-            std::ifstream in(entry.path());
-            for (std::string line; std::getline(in, line);) {
-                const Json event = Json::parse(line, nullptr, false);
-                if (event.is_object() && event.value("event", "") == "failed" &&
-                    event.value("stim_id", "") == clip)
-                    why = event.value("why", "");
+            const std::string log = read_file(entry.path(), kTaskLog);
+            for (TextLines lines(log); lines.next();) {
+                const Json event = json_or_null(lines.line());
+                const auto says = [&](const char* key, const std::string& what) {
+                    const auto found = event.find(key);
+                    return found != event.end() && *found == what;
+                };
+                if (!event.is_object() || !says("event", "failed") || !says("stim_id", clip))
+                    continue;
+                const auto said = event.find("why");
+                if (said != event.end() && said->is_string()) why = said->get<std::string>();
             }
         }
 }

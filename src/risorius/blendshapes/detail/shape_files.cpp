@@ -8,6 +8,7 @@
 #include "risorius/blendshapes/detail/corrective_drivers.h"
 #include "risorius/blendshapes/detail/shape_correctives.h"
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/io/read_mesh.h"
 #include "risorius/report/atomic_file.h"
@@ -184,7 +185,7 @@ std::vector<std::string> write_shape_table(const scene::RigFiles& files, const r
         numbers.append(reinterpret_cast<const char*>(field.data()), field.size() * sizeof(float));
     }
     write_file(folder / "shapes.f32", numbers);
-    report::write_text(folder / "shapes.json", json.dump(1) + "\n");
+    report::write_text(folder / "shapes.json", json_text(json, 1) + "\n");
     return {"shapes.json", "shapes.f32"};
 }
 
@@ -215,7 +216,7 @@ std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const 
                     {"file", "cache.f32"},
                     {"fps", animation.fps},
                     {"units_per_metre", 1 / head.frame.metres_per_unit}};
-    report::write_text(folder / "cache.json", json.dump(1) + "\n");
+    report::write_text(folder / "cache.json", json_text(json, 1) + "\n");
     return {"cache.json", "cache.f32"};
 }
 

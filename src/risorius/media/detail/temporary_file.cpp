@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/media/detail/temporary_file.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+#include "risorius/core/error.h"
 #include "risorius/core/read_file.h"
 
 namespace risorius::media::detail {

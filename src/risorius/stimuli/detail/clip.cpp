@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "risorius/animate/frame_rows.h"
 #include "risorius/animate/run_render_job.h"
@@ -14,6 +12,7 @@
 #include "risorius/core/input_log.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
+#include "risorius/core/read_file.h"
 #include "risorius/core/version.h"
 #include "risorius/media/image_file.h"
 #include "risorius/media/sha256.h"
@@ -93,6 +92,7 @@ Json show_matched(const ClipPlan& plan, const UnmatchedRender& render,
                   ClipPictures& pictures) {
     const media::Tone tone = plan.tone.value_or(media::Tone{});
     const media::ToneCurve curve(tone);
+    const ReadingFormerOutput own;
     media::VideoReader reader(render.video);
     media::LuminanceSums after;
     double cut_off = 0;
@@ -130,10 +130,7 @@ Json portable_record(const animate::RunRecord& record) {
 }
 
 std::string text_of_file(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream out;
-    out << in.rdbuf();
-    return out.str();
+    return read_file(file, {"a text file", 256 * kMegabyte});
 }
 
 double ClipPlan::seconds() const {
@@ -150,8 +147,8 @@ void ClipPlan::match(const media::Tone& matched) {
     tone = matched;
     const media::ToneCurve curve(matched);
     for (std::uint8_t& byte : background) byte = curve.of(byte);
-    content_sha256 = animate::sha256_of_text(
-        Json{{"content", content_sha256}, {"gain", tone->gain}, {"offset", tone->offset}}.dump());
+    content_sha256 = animate::sha256_of_text(json_text(
+        Json{{"content", content_sha256}, {"gain", tone->gain}, {"offset", tone->offset}}));
 }
 
 namespace {
@@ -205,7 +202,7 @@ std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256
             rendered["files"].push_back(
                 media::sha256_of_file(file.is_relative() ? condition.folder / file : file));
     }
-    return animate::sha256_of_text(rendered.dump());
+    return animate::sha256_of_text(json_text(rendered));
 }
 
 /// The checksum of everything that the clip depends on.
@@ -228,7 +225,7 @@ std::string content_sha256_of(const ClipPlan& plan) {
         content["sound"] = {{"file", plan.sound->sha256},
                             {"offset_samples", plan.sound->offset_samples},
                             {"gain_db", plan.sound->gain_db}};
-    return animate::sha256_of_text(content.dump());
+    return animate::sha256_of_text(json_text(content));
 }
 
 }  // namespace
@@ -262,7 +259,7 @@ ClipPlan plan_clip(const design::Condition& condition, const design::Design& des
                                design.match.loudness_lufs, json.place());
     const std::string rig_sha256 = sha256_of_rig(*input);
     plan.scene_sha256 = animate::sha256_of_text(
-        Json{rig_sha256, clips.quality, condition.script.value("view", Json())}.dump());
+        json_text(Json{rig_sha256, clips.quality, condition.script.value("view", Json())}));
     plan.render_sha256 = render_sha256_of(plan, rig_sha256);
     plan.content_sha256 = content_sha256_of(plan);
     return plan;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/stimuli/detail/experiment_programs.h"
 
 namespace risorius::stimuli {
@@ -36,7 +37,7 @@ std::string screen_colour(const BatchPlan& plan) {
 std::string plain_text(const Json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number()) return format_number(value.get<double>());
-    return value.is_null() ? "" : value.dump();
+    return value.is_null() ? "" : json_text(value);
 }
 
 /// The key of the right answer for a clip; empty when the design does not name one.
@@ -155,12 +156,12 @@ void write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
         write_below(fs::path("experiment") / name, text);
     };
     write("conditions.csv", csv_table(rows));
-    write("settings.json", settings.dump(2) + "\n");
+    write("settings.json", json_text(settings, 2) + "\n");
     for (const std::string& program : experiment.programs) {
         if (program == "psychopy") write("experiment.py", psychopy_program());
         if (program == "jspsych")
-            write("index.html", jspsych_page(plan.name, experiment.jspsych_from, settings.dump(1),
-                                             Json(rows).dump(1)));
+            write("index.html", jspsych_page(plan.name, experiment.jspsych_from,
+                                             json_text(settings, 1), json_text(Json(rows), 1)));
     }
 }
 

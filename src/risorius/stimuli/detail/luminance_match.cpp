@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
 
 namespace risorius::stimuli {
@@ -128,7 +129,7 @@ std::vector<plot::Chart> write_luminance_report(const BatchPlan& plan,
                     {"after", described(of.after)},
                     {"greatest_cut_off", of.cut_off}};
     write(below / "luminance.tsv", table);
-    write(below / "luminance.json", json.dump(2) + "\n");
+    write(below / "luminance.json", json_text(json, 2) + "\n");
     return {chart_of("mean", "mean of luminance", records, &media::LuminanceSums::mean),
             chart_of("sd", "standard deviation of luminance", records, &media::LuminanceSums::sd)};
 }

@@ -108,6 +108,7 @@ void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker) {
 
     // Luminance is measured on the decoded pictures.
     const animate::FrameRows rows = animate::frame_rows(result.table);
+    const ReadingFormerOutput own;
     media::VideoReader reader(video_file);
     media::LuminanceSums sums;
     for (int frame = 0; frame < reader.frames(); ++frame)
