@@ -82,7 +82,13 @@ void check_mesh_file(const fs::path& file, CheckResult& result) {
     for (std::size_t g = 0; g < mesh.group_names.size(); ++g)
         if (fitting::role_suggested_by(mesh.group_names[g]) == "skin")
             options.groups.push_back(static_cast<int>(g));
-    const geom::MeshReport report = geom::check_mesh(mesh, file.string(), options);
+    const geom::MeshReport report = geom::inspect_mesh(mesh, file.string(), options);
+    for (const geom::MeshFinding& finding : report.findings)
+        if (finding.severity == geom::Severity::kError)
+            throw Error(
+                finding.place, finding.expected,
+                finding.found +
+                    (geom::can_be_repaired(finding.check) ? " (fit --repair mends a scan)" : ""));
     for (const geom::MeshFinding& finding : report.findings)
         result.notes.push_back(readable_text(finding.message()));
     note_pictures(mesh, result);
