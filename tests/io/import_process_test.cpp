@@ -129,6 +129,17 @@ TEST(ImportProcess, ACrashIsAnErrorThatSaysSo) {
               std::string::npos);
 }
 
+TEST(ImportProcess, StripsInPlyAreRefused) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "strips.ply")
+        << "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+           "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
+           "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 1 2 3\n";
+    EXPECT_EQ(message_of([&] { read_mesh(folder / "strips.ply"); }),
+              (folder / "strips.ply").string() +
+                  ": expected faces (export the mesh as triangles), found strips of triangles");
+}
+
 TEST(ImportProcess, ThatIsNotInstalledIsNamed) {
     ::setenv("RISORIUS_IMPORT_MESH", "/nowhere/at/all", 1);
     const std::string said = message_of([] { read_mesh(kSmallMeshes / "sheet.stl"); });

@@ -10,6 +10,7 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cctype>
+#include <cstdio>
 #include <cstring>
 #include <map>
 #include <set>
@@ -52,6 +53,20 @@ class FilesToRead : public Assimp::DefaultIOSystem {
         return *mode == 'r' && Exists(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
     }
 };
+
+/// assimp loses the first triangles of a strip in a PLY file.
+void refuse_strips(const std::filesystem::path& file) {
+    constexpr std::size_t kLongestHeader = 1 << 16;
+    std::string header(kLongestHeader, '\0');
+    std::FILE* in = std::fopen(file.c_str(), "rb");
+    if (in == nullptr) return;
+    header.resize(std::fread(header.data(), 1, header.size(), in));
+    std::fclose(in);
+    header.resize(std::min(header.find("end_header"), header.size()));
+    if (header.find("element tristrips") != std::string::npos)
+        throw NoMesh(
+            {file.string(), "faces (export the mesh as triangles)", "strips of triangles"});
+}
 
 bool has_polygons(const aiMesh& mesh) {
     return std::any_of(mesh.mFaces, mesh.mFaces + mesh.mNumFaces,
@@ -248,6 +263,7 @@ geom::PolygonMesh read_scene(const std::filesystem::path& file) {
     std::string ending = file.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (ending == ".ply") refuse_strips(file);
     Assimp::Importer importer;
     importer.SetIOHandler(new FilesToRead);  // which the importer owns
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
