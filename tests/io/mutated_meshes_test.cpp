@@ -56,6 +56,7 @@ std::string mutated(std::string bytes, std::mt19937& random) {
 TEST(MutatedMeshes, AreReadOrRefused) {
     const TemporaryFolder folder;
     std::mt19937 random(20261125);
+    int sound = 0, refused = 0;
     for (const char* kind : {"public_cases", "hostile"})
         for (const auto& entry :
              fs::directory_iterator(fs::path(RISORIUS_SOURCE_DIR) / "tests/inputs" / kind)) {
@@ -70,7 +71,9 @@ TEST(MutatedMeshes, AreReadOrRefused) {
                     geom::inspect_mesh(mesh, file.string());
                     geom::repair_mesh(mesh);
                     geom::inspect_mesh(mesh, file.string());
+                    ++sound;
                 } catch (const Error&) {
+                    ++refused;
                 }
                 if (ending == ".obj") continue;
                 try {
@@ -79,6 +82,9 @@ TEST(MutatedMeshes, AreReadOrRefused) {
                 }
             }
         }
+    // The changes are neither all without effect nor all fatal at once.
+    EXPECT_GT(sound, refused / 20);
+    EXPECT_GT(refused, sound / 20);
 }
 
 }  // namespace

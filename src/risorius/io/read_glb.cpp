@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
@@ -141,9 +142,7 @@ void add_primitive(const GltfFile& from, const JsonCursor& primitive, double uni
     }
 }
 
-}  // namespace
-
-MorphModel read_glb(const std::filesystem::path& file) {
+MorphModel read_model(const std::filesystem::path& file) {
     const GltfFile from(file, "a binary glTF file", /*binary_only=*/true);
     const auto& meshes = from.list("meshes");
     if (meshes.size() != 1)
@@ -175,6 +174,16 @@ MorphModel read_glb(const std::filesystem::path& file) {
                 read_animation(from, animation, channels[0], out.targets.size()));
     }
     return out;
+}
+
+}  // namespace
+
+MorphModel read_glb(const std::filesystem::path& file) {
+    try {
+        return read_model(file);
+    } catch (const std::bad_alloc&) {
+        throw Error(file.string(), "a file that fits into memory", "a larger one");
+    }
 }
 
 }  // namespace risorius::io

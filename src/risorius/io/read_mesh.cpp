@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <new>
 #include <sstream>
 
 #include "risorius/core/error.h"
@@ -40,6 +41,21 @@ void require_finite(const geom::PolygonMesh& mesh, const std::string& name) {
     }
 }
 
+geom::PolygonMesh read_by_ending(const std::filesystem::path& file,
+                                 const MeshReadOptions& options) {
+    const std::string ending = lower_case_ending(file);
+    if (ending == ".obj") {
+        detail::ObjMaterials materials;
+        geom::PolygonMesh mesh =
+            detail::read_obj(read_text(file, detail::kMeshFile), file.string(), &materials);
+        detail::add_obj_textures(file, materials, mesh);
+        return mesh;
+    }
+    if (ending == ".glb" || ending == ".gltf" || ending == ".vrm")
+        return detail::read_gltf_mesh(file);
+    return detail::import_mesh(file, options.stopped);
+}
+
 }  // namespace
 
 geom::PolygonMesh read_mesh(const std::filesystem::path& file, const MeshReadOptions& options) {
@@ -49,16 +65,11 @@ geom::PolygonMesh read_mesh(const std::filesystem::path& file, const MeshReadOpt
     check_file(file, detail::kMeshFile);
     if (std::filesystem::file_size(file) == 0) throw Error(name, "a mesh file", "an empty file");
 
-    const std::string ending = lower_case_ending(file);
     geom::PolygonMesh mesh;
-    if (ending == ".obj") {
-        detail::ObjMaterials materials;
-        mesh = detail::read_obj(read_text(file, detail::kMeshFile), name, &materials);
-        detail::add_obj_textures(file, materials, mesh);
-    } else if (ending == ".glb" || ending == ".gltf" || ending == ".vrm") {
-        mesh = detail::read_gltf_mesh(file);
-    } else {
-        mesh = detail::import_mesh(file, options.stopped);
+    try {
+        mesh = read_by_ending(file, options);
+    } catch (const std::bad_alloc&) {
+        throw Error(name, "a mesh that fits into memory", "a larger one");
     }
     require_finite(mesh, name);
     mesh.positions *= options.metres_per_unit;
