@@ -144,6 +144,16 @@ TEST_F(GltfMesh, NodesFormATree) {
     EXPECT_EQ(with(deep + ",{}]"), "no error");
 }
 
+TEST(HostileGlb, TextAfterTheJsonIsRefused) {
+    const TemporaryFolder folder;
+    for (const std::string text : {"{}\"a\"", "{\"b\":{}}\"a\":1", "{\"a", "{]\"a\"", "{},\"a\""}) {
+        std::ofstream(folder / "a.gltf") << text;
+        EXPECT_NE(message_of([&] { read_mesh(folder / "a.gltf"); }).find("expected valid JSON"),
+                  std::string::npos)
+            << text;
+    }
+}
+
 TEST(GltfCases, AreRead) {
     const geom::PolygonMesh plain = read_mesh(kCases / "obj_plain.obj");
     for (const char* name : {"gltf_quantized.glb", "gltf_quantized_14_bits.glb", "gltf_meshopt.glb",

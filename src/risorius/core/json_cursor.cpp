@@ -153,12 +153,13 @@ std::string duplicate_key(const std::string& text, const std::filesystem::path& 
         const char c = text[i];
         if (c == '{' || c == '[') open.push_back({c == '{'});
         if ((c == '}' || c == ']') && !open.empty()) open.pop_back();
+        if (c == '}' || c == ']') expects_key = false;
         if (c == '{' || c == ',') expects_key = !open.empty() && open.back().is_object;
         if (c != '"') continue;
         const std::size_t begin = i;
         for (++i; i < text.size() && text[i] != '"'; ++i)
             if (text[i] == '\\') ++i;
-        if (!expects_key) continue;
+        if (!expects_key || open.empty()) continue;
         expects_key = false;
         std::string key = text.substr(begin, i - begin + 1);
         if (key.find('\\') != std::string::npos) {
