@@ -39,10 +39,7 @@ TEST(Reading, OnlyCoreOpensFilesToRead) {
     expect_none(
         R"(ifstream|filebuf|\bfopen\b|rdbuf|O_RDONLY|O_RDWR)",
         {{"src/risorius/core/file_reader.cpp", "opens every file"},
-         {"src/risorius/plot/detail/run_gnuplot.cpp", "gives /dev/null to a program"},
-         {"src/risorius/io/", "moves to core/read_file with the limits of meshes"},
-         {"src/risorius/media/picture_file.cpp", "moves to core/read_file with the meshes"},
-         {"src/risorius/stimuli/detail/stimulus_set.cpp", "moves with the manifest of sets"}},
+         {"src/risorius/plot/detail/run_gnuplot.cpp", "gives /dev/null to a program"}},
         "read_file(), read_text() or FileReader of core has the limits and sees read errors");
 }
 
@@ -54,13 +51,7 @@ TEST(Reading, OnlyCoreParsesJson) {
 }
 
 TEST(Reading, OnlyCoreWritesJsonAsText) {
-    expect_none(R"(\.dump\()",
-                {{"src/risorius/core/json_cursor.cpp", "json_text()"},
-                 {"src/risorius/animate/", "moves to json_text() with the outputs"},
-                 {"src/risorius/fitting/detail/fit_page.cpp", "moves with the meshes"},
-                 {"src/risorius/io/", "moves with the meshes"},
-                 {"src/risorius/stimuli/detail/stimulus_set.cpp", "moves with the outputs"},
-                 {"tools/risorius/batch_command.cpp", "moves with the outputs"}},
+    expect_none(R"(\.dump\()", {{"src/risorius/core/json_cursor.cpp", "json_text()"}},
                 "json_text() of core takes names of files that are not UTF-8");
 }
 

@@ -11,6 +11,7 @@
 #include "risorius/io/read_mesh.h"
 #include "risorius/rig/head.h"
 #include "risorius/scene/rig_files.h"
+#include "risorius/scene/scene_from_rig.h"
 #include "risorius/stimuli/batch.h"
 #include "risorius/track/script.h"
 #include "tools/risorius/schema_check.h"
@@ -21,10 +22,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Adds what the reader of a mesh left out, and what is wrong with its pictures.
+void note_pictures(const geom::PolygonMesh& mesh, CheckResult& result) {
+    for (const std::string& note : mesh.notes) result.notes.push_back(readable_text(note));
+    for (std::string& note : scene::picture_problems(mesh)) result.notes.push_back(std::move(note));
+}
+
 void check_rig(const fs::path& file, CheckResult& result) {
     const scene::RigFiles files = scene::read_rig_files(file);
     const rig::Head head = rig::place_head(files.rig, files.mesh, files.place());
     result.notes = files.rig.notes;
+    note_pictures(files.mesh, result);
     if (!head.warped_landmarks.empty())
         result.notes.push_back(std::to_string(head.warped_landmarks.size()) +
                                " landmarks are not given and placed by the atlas");
@@ -91,9 +99,16 @@ void check_mesh_file(const fs::path& file, CheckResult& result) {
     for (std::size_t g = 0; g < mesh.group_names.size(); ++g)
         if (fitting::role_suggested_by(mesh.group_names[g]) == "skin")
             options.groups.push_back(static_cast<int>(g));
-    const geom::MeshReport report = geom::check_mesh(mesh, file.string(), options);
+    const geom::MeshReport report = geom::inspect_mesh(mesh, file.string(), options);
     for (const geom::MeshFinding& finding : report.findings)
-        result.notes.push_back(finding.message());
+        if (finding.severity == geom::Severity::kError)
+            throw Error(
+                finding.place, finding.expected,
+                finding.found +
+                    (geom::can_be_repaired(finding.check) ? " (fit --repair mends a scan)" : ""));
+    for (const geom::MeshFinding& finding : report.findings)
+        result.notes.push_back(readable_text(finding.message()));
+    note_pictures(mesh, result);
 }
 
 void check(CheckResult& result) {

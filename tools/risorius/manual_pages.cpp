@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tools/risorius/manual_pages.h"
 
-#include <fstream>
 #include <regex>
 #include <sstream>
 

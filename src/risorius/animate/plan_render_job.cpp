@@ -8,6 +8,7 @@
 #include "risorius/animate/render_job.h"
 #include "risorius/core/error.h"
 #include "risorius/core/existing_file.h"
+#include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/face/quality.h"
 #include "risorius/media/hdr_file.h"
@@ -246,7 +247,8 @@ void plan_times(const RenderRequest& request, RenderJob& job) {
 /// The script as read, from memory or from its file.
 ScriptInput script_input(const RenderRequest& request, RenderInputs& inputs) {
     if (request.script_in_memory)
-        return {*request.script_in_memory, sha256_of_text(request.script_in_memory->json().dump())};
+        return {*request.script_in_memory,
+                sha256_of_text(json_text(request.script_in_memory->json()))};
     return *inputs.script(request.script);
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "risorius/core/input_log.h"
+#include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/core/version.h"
 #include "risorius/media/sha256.h"
@@ -28,7 +29,7 @@ std::string cell(const Json& value) {
     if (value.is_null()) return kMissing;
     std::string text = value.is_string()   ? value.get<std::string>()
                        : value.is_number() ? format_number(value.get<double>())
-                                           : value.dump();
+                                           : json_text(value);
     for (char& c : text)
         if (c == '\t' || c == '\n' || c == '\r') c = ' ';
     return text.empty() ? kMissing : text;
@@ -209,19 +210,19 @@ void write_set(const BatchPlan& plan, const fs::path& design, const fs::path& fo
         write_file(fresh[name], text);
         files.insert(name);
     };
-    write(
-        "dataset_description.json",
-        Json{{"Name", plan.name},
-             {"BIDSVersion", "1.10.0"},
-             {"DatasetType", "derivative"},
-             {"GeneratedBy",
-              Json::array({{{"Name", "Risorius"},
-                            {"Version", kVersion},
-                            {"Description", "Simulated and rendered: every face is synthetic"}}})}}
-                .dump(2) +
-            "\n");
+    write("dataset_description.json",
+          json_text(Json{{"Name", plan.name},
+                         {"BIDSVersion", "1.10.0"},
+                         {"DatasetType", "derivative"},
+                         {"GeneratedBy",
+                          Json::array({{{"Name", "Risorius"},
+                                        {"Version", kVersion},
+                                        {"Description",
+                                         "Simulated and rendered: every face is synthetic"}}})}},
+                    2) +
+              "\n");
     write("stimuli/stimuli.tsv", catalogue(records, plan.clips));
-    write("stimuli/stimuli.json", catalogue_columns(records, plan.clips).dump(2) + "\n");
+    write("stimuli/stimuli.json", json_text(catalogue_columns(records, plan.clips), 2) + "\n");
     write("triggers.tsv", triggers(records));
     // It may be the design that is read.
     if (std::error_code none; fs::equivalent(design, folder / "code/design.json", none))
