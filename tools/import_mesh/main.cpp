@@ -55,6 +55,8 @@ int main(int count, char** arguments) {
         std::fprintf(stderr, "risorius-import-mesh FILE: reads a mesh for the program risorius\n");
         return 2;
     }
+    // It ends with the program that started it, however that one ends.
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     const std::filesystem::path file = arguments[1];
     std::error_code problem;
     const auto size = std::filesystem::file_size(file, problem);
