@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kFile = "a regular file, or nothing yet";
-constexpr const char* kFolder = "a folder, or nothing yet";
+constexpr const char* kFileExpected = "a regular file, or nothing yet";
+constexpr const char* kFolderExpected = "a folder, or nothing yet";
 constexpr const char* kNoInput = "an output that is not an input";
 
 const char* kind_of(mode_t mode) {
@@ -46,10 +46,11 @@ void check_place(const Target& target) {
     struct ::stat status {};
     if (::lstat(place.c_str(), &status) != 0) {
         if (errno == ENOENT || errno == ENOTDIR) return;
-        throw Error(shown.string(), folder ? kFolder : kFile, std::strerror(errno));
+        throw Error(shown.string(), folder ? kFolderExpected : kFileExpected, std::strerror(errno));
     }
     if (folder ? !S_ISDIR(status.st_mode) : !S_ISREG(status.st_mode))
-        throw Error(shown.string(), folder ? kFolder : kFile, kind_of(status.st_mode));
+        throw Error(shown.string(), folder ? kFolderExpected : kFileExpected,
+                    kind_of(status.st_mode));
     if (kind == Kind::kRemoval) return;
     if (is_input(status.st_dev, status.st_ino))
         throw Error(shown.string(), kNoInput, "one that was read");
