@@ -3,8 +3,10 @@
 
 #include <algorithm>
 
+#include "risorius/animate/render_inputs.h"
+#include "risorius/animate/render_job.h"
+#include "risorius/animate/render_request.h"
 #include "risorius/core/data_folder.h"
-#include "risorius/core/existing_file.h"
 #include "risorius/figures/registry.h"
 #include "risorius/fitting/landmark_file.h"
 #include "risorius/fitting/part_guess.h"
@@ -71,15 +73,17 @@ void note_idle_channels(const track::ScriptDescription& script, CheckResult& res
                                    " s has an intensity of 0");
 }
 
+/// Reads and checks all that `risorius render` reads and checks before it draws.
 void check_script(const JsonCursor& json, CheckResult& result) {
-    const track::ScriptHeader header = track::read_script_header(json);
-    existing_file(json.at("rig"));
-    const scene::RigFiles files = scene::read_rig_files(header.rig_file);
-    const track::ScriptDescription script =
-        track::read_script(json, files.rig.channels(), files.rig.facs, files.rig.expressions);
-    result.notes = script.notes;
-    note_late_events(script, result);
-    note_idle_channels(script, result);
+    animate::RenderRequest request;
+    request.script = result.file;
+    request.script_in_memory = json;
+    request.out = "check.mkv";  // nothing is written
+    const animate::RenderJob job = animate::plan_render_job(request);
+    result.notes = job.script.notes;
+    note_late_events(job.script, result);
+    note_idle_channels(job.script, result);
+    const scene::RigFiles& files = job.rig->files;
     rig::place_head(files.rig, files.mesh, files.place());
 }
 
