@@ -174,6 +174,14 @@ TEST(Outputs, ALimitOfTheSizeOfFilesIsAnError) {
     EXPECT_EQ(folder.listing(), Names{"clip.json"});
 }
 
+TEST(Outputs, OfARunWithoutMemoryAreGone) {
+    const Folder folder;
+    const Outcome done = run(clip_in(folder) + "-o x.mp4", folder.path(), "ulimit -v 400000; ");
+    EXPECT_EQ(done.code, 1);
+    EXPECT_EQ(done.errors, "risorius: not enough memory\n");
+    EXPECT_EQ(folder.listing(), Names{"clip.json"});
+}
+
 TEST(Outputs, HaveARecordWhateverTheirName) {
     const Folder folder;
     const std::string name = "caf\xe9.mp4";

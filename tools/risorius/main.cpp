@@ -4,7 +4,9 @@
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
+#include <new>
 #include <regex>
 #include <string>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "risorius/core/input_log.h"
 #include "risorius/core/known_names.h"
 #include "risorius/core/progress_monitor.h"
+#include "risorius/core/readable_text.h"
 #include "risorius/core/version.h"
 #include "tools/risorius/commands.h"
 #include "tools/risorius/manual_pages.h"
@@ -156,8 +159,12 @@ int run(int argc, char** argv) {
     } catch (const Interrupted&) {
         cli::end_of_run();
         return say(kInterrupted, cli::stop_message());
+    } catch (const std::bad_alloc&) {
+        return say(kFailed, "not enough memory");
+    } catch (const std::filesystem::filesystem_error& error) {
+        return say(kFailed, readable_text(error.path1().string() + ": " + error.code().message()));
     } catch (const std::exception& error) {
-        return say(kFailed, error.what());
+        return say(kFailed, readable_text(error.what()));
     }
     return kDone;
 }
