@@ -138,13 +138,15 @@ TEST(RenderJob, ReadsScriptAndRigOnceForAllJobsAndNeverInTheRun) {
     std::ofstream(request.script) << short_script(rig).dump();
     request.out = folder.path() / "smile.mkv";
     request.quality = "preview";
-    OpenCounter scripts(request.script), rigs(rig);
+    OpenCounter scripts(request.script), rigs(rig),
+        tables(kRoot / "rigs/standard/muscle_bands.json");
     RenderInputs inputs;
     const RenderJob job = plan_render_job(request, inputs);
     request.fps = 5;
     const RenderJob second = plan_render_job(request, inputs);
     EXPECT_EQ(scripts.count(), 1);
-    EXPECT_EQ(rigs.count(), 2) << "once to be parsed, once for the checksum";
+    EXPECT_EQ(rigs.count(), 1);
+    EXPECT_EQ(tables.count(), 1);
     EXPECT_EQ(job.rig, second.rig);
 
     // The job is complete: its run needs neither the request nor the files
@@ -156,6 +158,30 @@ TEST(RenderJob, ReadsScriptAndRigOnceForAllJobsAndNeverInTheRun) {
     EXPECT_EQ(frames, 2);
     run_render_job(second, session, [&](const Image&) { ++frames; }, {});
     EXPECT_EQ(frames, 3);
+}
+
+// A file that is read twice can change in between. Then the record would have the checksum of something else.
+TEST(RenderJob, HasTheChecksumsOfTheBytesThatItReads) {
+    const TemporaryFolder folder;
+    const fs::path rig = own_rig(folder.path()), emg = folder / "emg.tsv";
+    const std::string of_rig = bytes_of(rig);
+    std::string of_emg = "level\n";
+    for (int i = 0; i < 2000; ++i) of_emg += std::to_string(i % 7) + "\n";
+    fs::remove(rig);
+    OncePipe rigs(rig, of_rig), recordings(emg, of_emg);
+    RenderRequest request;
+    request.script = folder / "script.json";
+    Json script = short_script(rig);
+    script["emg"] = {
+        {"file", "emg.tsv"}, {"rate_hz", 1000}, {"channels", {{"zygomaticus_major", "level"}}}};
+    std::ofstream(request.script) << script.dump();
+    request.out = folder / "smile.mkv";
+    const RenderJob job = plan_render_job(request);
+    EXPECT_EQ(job.rig->rig.sha256, sha256_of_text(of_rig));
+    EXPECT_EQ(rigs.readers(), 1);
+    ASSERT_EQ(job.recordings.size(), 1U);
+    EXPECT_EQ(job.recordings[0].sha256, sha256_of_text(of_emg));
+    EXPECT_EQ(recordings.readers(), 1);
 }
 
 TEST(RenderJob, TakesAScriptFromMemoryAndNamesItInMessages) {

@@ -10,6 +10,7 @@
 
 #include "message_of.h"
 #include "risorius/core/error.h"
+#include "risorius/core/read_observer.h"
 #include "risorius/core/readable_text.h"
 #include "risorius/core/text_lines.h"
 #include "temporary_folder.h"
@@ -34,6 +35,29 @@ TEST(ReadFile, GivesEveryByte) {
     EXPECT_EQ(read_bytes(any.path() / "note", kNote).size(), text.size());
     write(any.path() / "empty", "");
     EXPECT_EQ(read_file(any.path() / "empty", kNote), "");
+}
+
+TEST(ReadFile, ShowsToAnObserverWhatItsThreadHasRead) {
+    const TemporaryFolder any;
+    write(any / "a", "one");
+    write(any / "b", "");
+    std::vector<std::string> seen;
+    const auto note = [&](const fs::path& file, const void* bytes, std::size_t size) {
+        seen.push_back(file.filename().string() + "=" +
+                       std::string(static_cast<const char*>(bytes), size));
+    };
+    read_file(any / "a", kNote);
+    {
+        const ReadObserver outer([](const auto&...) { FAIL() << "the latest one is asked"; });
+        const ReadObserver inner(note);
+        read_file(any / "a", kNote);
+        read_bytes(any / "b", kNote);
+        EXPECT_EQ(message_of([&] { read_file(any / "c", kNote); }),
+                  (any / "c").string() + ": expected a note, found no such file");
+        std::thread([&] { read_file(any / "a", kNote); }).join();
+    }
+    read_file(any / "a", kNote);
+    EXPECT_EQ(seen, (std::vector<std::string>{"a=one", "b="}));
 }
 
 TEST(ReadFile, RefusesWhatIsNoFile) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "risorius/animate/detail/pass_writer.h"
+#include "risorius/animate/detail/read_checksums.h"
 #include "risorius/animate/render_job.h"
 #include "risorius/core/error.h"
 #include "risorius/core/existing_file.h"
@@ -258,9 +259,12 @@ void plan_rig_and_script(const RenderRequest& request, const JsonCursor& script,
     job.rig = inputs.rig(request.rig.value_or(job.script.header.rig_file));
     const rig::RigDescription& rig = job.rig->files.rig;
     const track::ChannelTable channels = rig.channels();
-    job.script = track::read_script(script, channels, rig.facs, rig.expressions);
-    for (const fs::path& recording : job.script.recordings)
-        job.recordings.push_back({recording, media::sha256_of_file(recording)});
+    {
+        ReadChecksums sums;
+        job.script = track::read_script(script, channels, rig.facs, rig.expressions);
+        for (const fs::path& recording : job.script.recordings)
+            job.recordings.push_back(sums.of(recording));
+    }
     if (request.against)
         job.reference = track::read_script(inputs.script(*request.against)->json, channels,
                                            rig.facs, rig.expressions);

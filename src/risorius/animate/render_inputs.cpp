@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/animate/render_inputs.h"
 
+#include "risorius/animate/detail/read_checksums.h"
 #include "risorius/core/json_text.h"
 #include "risorius/media/sha256.h"
 
@@ -30,14 +31,12 @@ std::shared_ptr<const RigInput> RenderInputs::rig(const fs::path& file) {
     std::shared_ptr<const RigInput>& known = rigs_[file];
     if (!known) {
         auto read = std::make_shared<RigInput>();
+        ReadChecksums sums;
         read->files = scene::read_rig_files(file);
-        const auto hashed = [](const fs::path& one) {
-            return InputFile{one, media::sha256_of_file(one)};
-        };
-        read->rig = hashed(read->files.file);
-        read->mesh = hashed(read->files.rig.mesh_file);
+        read->rig = sums.of(read->files.file);
+        read->mesh = sums.of(read->files.rig.mesh_file);
         for (const fs::path& table : read->files.rig.table_files)
-            read->tables.push_back(hashed(table));
+            read->tables.push_back(sums.of(table));
         known = std::move(read);
     }
     return known;

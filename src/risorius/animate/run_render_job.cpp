@@ -12,8 +12,10 @@
 #include "risorius/animate/detail/frame_table.h"
 #include "risorius/animate/detail/marked_pictures.h"
 #include "risorius/animate/detail/pipeline.h"
+#include "risorius/animate/detail/read_checksums.h"
 #include "risorius/animate/detail/reference_run.h"
 #include "risorius/blendshapes/shape_player.h"
+#include "risorius/core/error.h"
 #include "risorius/face/diagnostics.h"
 #include "risorius/face/face.h"
 #include "risorius/face/surfaces.h"
@@ -121,10 +123,13 @@ face::Face& ready_face(const RenderJob& job, RenderSession& session) {
 std::optional<blendshapes::ShapePlayer> player_of(const RenderJob& job, face::Face& face,
                                                   const track::ChannelTable& channels) {
     if (!job.shapes) return {};
-    return std::optional<blendshapes::ShapePlayer>(
-        std::in_place,
-        blendshapes::read_shapes_of_file(job.shapes->path, job.rig->files, face.head()), face,
-        channels);
+    ReadChecksums sums;
+    blendshapes::ShapesOfFile shapes =
+        blendshapes::read_shapes_of_file(job.shapes->path, job.rig->files, face.head());
+    if (sums.of(job.shapes->path).sha256 != job.shapes->sha256)
+        throw RunError(job.shapes->path.string() + ": the file changed while it was read");
+    return std::optional<blendshapes::ShapePlayer>(std::in_place, std::move(shapes), face,
+                                                   channels);
 }
 
 /// One run of a job. Each frame passes simulate(), draw() and show(). These run on different threads and share no mutable

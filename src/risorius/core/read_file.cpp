@@ -5,6 +5,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/file_reader.h"
+#include "risorius/core/read_observer.h"
 
 namespace risorius {
 
@@ -24,6 +25,7 @@ Bytes read_all(const std::filesystem::path& file, const FileKind& kind) {
         if (used > kind.max_bytes) in.fail_as_too_large("more than that");
         if (got < room) {
             bytes.resize(used);
+            show_to_observer(file, bytes.data(), bytes.size());
             return bytes;
         }
         room = std::max(kBlock, std::min<std::size_t>(used, kind.max_bytes));
