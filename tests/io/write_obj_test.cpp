@@ -7,6 +7,7 @@
 #include "paths.h"
 #include "risorius/core/error.h"
 #include "risorius/io/read_mesh.h"
+#include "temporary_folder.h"
 
 namespace risorius::io {
 namespace {
@@ -75,6 +76,60 @@ TEST(WriteObj, LeavesNothingHalfWritten) {
     EXPECT_THROW(write_obj(mixed_polygons(), file / "deep" / "a.obj"), Error);
     for (const auto& entry : fs::directory_iterator(file.parent_path()))
         EXPECT_FALSE(entry.path().filename().string().starts_with(".risorius-"));
+}
+
+/// A triangle without a picture, a quad with one beside the mesh, and a pentagon with one inside of it.
+geom::PolygonMesh pictured(const fs::path& beside) {
+    geom::PolygonMesh mesh = mixed_polygons();
+    mesh.textures = {{beside, "here", {}}, {"inside.png", "there", {0x89, 'P', 'N', 'G', 7}}};
+    mesh.face_texture = {-1, 0, 1};
+    return mesh;
+}
+
+TEST(WriteObj, KeepsPicturesWhereTheyLieAndWritesThoseInside) {
+    const TemporaryFolder folder;
+    fs::create_directories(folder / "made");
+    const fs::path obj = folder / "made/head.obj";
+    for (const std::string name : {"skin of anna.png", "-s 2 2.png", " #1.png"}) {
+        SCOPED_TRACE(name);
+        const fs::path picture = folder / name;
+        std::ofstream(picture) << "beside";
+        const geom::PolygonMesh mesh = pictured(picture);
+        const std::vector<fs::path> files = obj_files(mesh, obj);
+        ASSERT_EQ(files, (std::vector<fs::path>{obj, folder / "made/head.mtl",
+                                                folder / "made/head_1.png"}));
+        EXPECT_EQ(write_obj_with_pictures(mesh, obj, files), std::vector<std::string>{});
+        const geom::PolygonMesh back = read_mesh(obj);
+        expect_same(back, mesh);
+        EXPECT_EQ(back.notes, std::vector<std::string>{});
+        ASSERT_EQ(back.textures.size(), 2U);
+        EXPECT_EQ(back.face_texture, mesh.face_texture);
+        EXPECT_TRUE(fs::equivalent(back.textures[0].file, picture));
+        EXPECT_EQ(bytes_of(back.textures[1].file), "\x89PNG\x07");
+    }
+}
+
+TEST(WriteObj, SaysWhichPictureItCannotName) {
+    const TemporaryFolder folder;
+    const fs::path obj = folder / "head.obj";
+    for (const std::string name : {"a\nb.png", "a\\b.png", "a.png "}) {
+        const geom::PolygonMesh mesh = pictured(folder / name);
+        const std::vector<std::string> notes =
+            write_obj_with_pictures(mesh, obj, obj_files(mesh, obj));
+        ASSERT_EQ(notes.size(), 1U) << name;
+        EXPECT_TRUE(notes[0].starts_with("here: the picture is left out of ")) << notes[0];
+        EXPECT_EQ(read_mesh(obj).face_texture, (std::vector<int>{-1, -1, 0}));
+    }
+}
+
+TEST(WriteObj, WritesNoMaterialsWithoutPictures) {
+    const TemporaryFolder folder;
+    const geom::PolygonMesh mesh = mixed_polygons();
+    write_obj(mesh, folder / "a.obj");
+    EXPECT_EQ(write_obj_with_pictures(mesh, folder / "b.obj", obj_files(mesh, folder / "b.obj")),
+              std::vector<std::string>{});
+    EXPECT_EQ(bytes_of(folder / "a.obj"), bytes_of(folder / "b.obj"));
+    EXPECT_EQ(folder.listing(), (std::set<std::string>{"a.obj", "b.obj"}));
 }
 
 }  // namespace

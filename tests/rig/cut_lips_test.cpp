@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "rig/head_variants.h"
 #include "risorius/geom/surface_topology.h"
 
@@ -79,6 +81,52 @@ TEST(CutLips, KeepsEveryVertexAndTheSurfaceSoundButForTheGap) {
         for (int k = 0; k < 3; ++k)
             EXPECT_TRUE(directed.insert({whole(f, k), whole(f, (k + 1) % 3)}).second)
                 << "two faces run along one edge the same way";
+}
+
+TEST(CutLips, LeavesPicturesWhereTheyWere) {
+    geom::PolygonMesh painted = scan().mesh;
+    // Coordinates that tell the place of a corner, and another picture on each side of the face
+    const auto coordinates_of = [&](int vertex) {
+        const Vec3 p = painted.positions.row(vertex).transpose();
+        return Vec2(p.x() + 0.1 * p.z(), p.y() - 0.3 * p.z());
+    };
+    painted.corner_texcoord.resize(static_cast<long>(painted.corner_vertex.size()), 2);
+    for (std::size_t c = 0; c < painted.corner_vertex.size(); ++c)
+        painted.corner_texcoord.row(static_cast<long>(c)) =
+            coordinates_of(painted.corner_vertex[c]).transpose();
+    painted.textures = {{"left.png", "here", {}}, {"right.png", "here", {}}};
+    for (int f = 0; f < painted.face_count(); ++f)
+        painted.face_texture.push_back(
+            painted.positions(painted.corner_vertex[static_cast<std::size_t>(
+                                  painted.face_begin[static_cast<std::size_t>(f)])],
+                              0) > 0
+                ? 0
+                : 1);
+    const geom::PolygonMesh before = painted;
+    painted = cut_lips(before, scan().head, {0}, "scan").mesh;
+    ASSERT_EQ(painted.textures.size(), 2U);
+    EXPECT_EQ(painted.textures[1].file, "right.png");
+    ASSERT_EQ(painted.face_texture.size(), static_cast<std::size_t>(painted.face_count()));
+    double farthest = 0;
+    std::array<int, 2> skin_faces{};
+    for (int f = 0; f < painted.face_count(); ++f) {
+        const int texture = painted.face_texture[static_cast<std::size_t>(f)];
+        if (painted.face_group[static_cast<std::size_t>(f)] != 0) {
+            EXPECT_EQ(texture, -1) << "the lining has no picture";
+            continue;
+        }
+        ASSERT_TRUE(texture == 0 || texture == 1);
+        ++skin_faces[static_cast<std::size_t>(texture)];
+        for (int c = painted.face_begin[static_cast<std::size_t>(f)];
+             c < painted.face_begin[static_cast<std::size_t>(f) + 1]; ++c)
+            farthest = std::max(farthest,
+                                (Vec2(painted.corner_texcoord.row(c).transpose()) -
+                                 coordinates_of(painted.corner_vertex[static_cast<std::size_t>(c)]))
+                                    .norm());
+    }
+    EXPECT_LT(farthest, 1e-9);
+    EXPECT_GT(skin_faces[0], 1000);
+    EXPECT_GT(skin_faces[1], 1000);
 }
 
 TEST(CutLips, UpperAndLowerLipMeetAndTheLiningLiesBehind) {

@@ -7,6 +7,7 @@
 #include "rig/head_variants.h"
 #include "risorius/fitting/fit_rig.h"
 #include "risorius/io/read_mesh.h"
+#include "risorius/media/image_file.h"
 #include "risorius/scene/landmark_points.h"
 #include "risorius/scene/rig_files.h"
 #include "scenario/run_program.h"
@@ -70,9 +71,20 @@ struct Moves {
     }
 };
 
+/// Lays a picture on the mesh in a file: "skin.png" beside it.
+void paint(const fs::path& file) {
+    geom::PolygonMesh mesh = io::read_mesh(file);
+    mesh.corner_texcoord = TexCoords::Zero(static_cast<long>(mesh.corner_vertex.size()), 2);
+    mesh.textures = {{file.parent_path() / "skin.png", "here", {}}};
+    mesh.face_texture.assign(static_cast<std::size_t>(mesh.face_count()), 0);
+    media::write_png(Image(2, 2), mesh.textures[0].file);
+    io::write_obj_with_pictures(mesh, file, io::obj_files(mesh, file));
+}
+
 TEST(AnyHead, ScanWithGrownLipsIsRefusedOrCutAndThenOpensItsMouth) {
     const rig::Head& adult = rig::adult_placed();
     Brought scan(rig::scan_of(adult, rig::adult().mesh, 56, 76), twenty_of(adult), 1.0);
+    paint(scan.options.mesh);
     scan.options.report = scan.folder / "report";
     try {
         fitting::fit_rig(scan.options);
@@ -83,13 +95,20 @@ TEST(AnyHead, ScanWithGrownLipsIsRefusedOrCutAndThenOpensItsMouth) {
                       ": expected lips that can part (cut_lips cuts them), found skin that runs on "
                       "from the upper lip to the lower");
     }
-    EXPECT_EQ(scan.folder.listing(), (std::set<std::string>{"head.obj", "landmarks.json"}));
+    EXPECT_EQ(scan.folder.listing(),
+              (std::set<std::string>{"head.mtl", "head.obj", "landmarks.json", "skin.png"}));
 
     scan.options.cut_lips = true;
     const fitting::FitReport report = fitting::fit_rig(scan.options);
     EXPECT_TRUE(report.lips_cut);
     EXPECT_EQ(report.bone.through_skin, 0);
     EXPECT_GT(report.bone.thinnest_mm, 0.3);
+    const geom::PolygonMesh cut = scene::read_rig_files(scan.options.out).mesh;
+    ASSERT_EQ(cut.textures.size(), 1U);
+    EXPECT_TRUE(fs::equivalent(cut.textures[0].file, scan.folder / "skin.png"));
+    EXPECT_EQ(
+        std::count(cut.face_texture.begin(), cut.face_texture.end(), -1),
+        std::count(cut.face_group.begin(), cut.face_group.end(), cut.group_index("mouth_lining")));
     const Moves moves(scan.options.out);
     EXPECT_TRUE(moves.finite);
     EXPECT_GT(moves.jaw_mm, 15);

@@ -180,28 +180,32 @@ void check_parts(const FitOptions& options, const geom::PolygonMesh& mesh) {
 // a folder elsewhere.
 class FitOutputs {
   public:
-    FitOutputs(const FitOptions& options, bool mesh_changed) : options_(options) {
+    /// `changed_mesh`: the mesh if it was changed, else nullptr
+    FitOutputs(const FitOptions& options, const geom::PolygonMesh* changed_mesh)
+        : options_(options) {
         rig_ = options.out;
-        if (mesh_changed) mesh_ = changed_mesh_file(options.out);
+        if (changed_mesh) mesh_ = io::obj_files(*changed_mesh, changed_mesh_file(options.out));
         if (!is_private_output(options.out)) {
             own_.emplace(folder_of_output(options.out));
             rig_ = own_->file(options.out);
-            if (mesh_changed) mesh_ = own_->file(mesh_);
+            for (fs::path& file : mesh_) file = own_->file(file);
         }
         if (!options.report.empty()) add_report();
     }
 
-    // Writes the rig and, if it was changed, the mesh.
-    void write(const fs::path& standard, const geom::PolygonMesh& mesh,
-               rig::RigDescription& rig) const {
+    // Writes the rig and, if it was changed, the mesh. Returns notes about its pictures.
+    std::vector<std::string> write(const fs::path& standard, const geom::PolygonMesh& mesh,
+                                   rig::RigDescription& rig) const {
+        std::vector<std::string> notes;
         if (!mesh_.empty()) {
             rig.mesh_file = changed_mesh_file(options_.out);
-            io::write_obj(mesh, mesh_);
+            notes = io::write_obj_with_pictures(mesh, shown_output(rig.mesh_file), mesh_);
         }
         rig::write_rig(rig, rig_,
                        {.standard_folder = standard,
                         .inline_tables = options_.inline_tables,
                         .place = options_.out});
+        return notes;
     }
     // The folder of the report; empty without one.
     fs::path report() const { return report_ ? report_->partial() : fs::path(); }
@@ -230,7 +234,9 @@ class FitOutputs {
 
     const FitOptions& options_;
     std::optional<OutputSet> own_;
-    fs::path rig_, mesh_;
+    fs::path rig_;
+    std::vector<fs::path>
+        mesh_;  // where to write the mesh and its pictures; empty if it was not changed
     std::optional<report::AtomicFolder> report_;
 };
 
@@ -361,7 +367,7 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
             options.out.string(),
             "a name for the rig under which the changed mesh does not take the place of yours",
             changed_mesh_file(options.out).string());
-    FitOutputs outputs(options, report.lips_cut || changed);
+    FitOutputs outputs(options, report.lips_cut || changed ? &mesh : nullptr);
     face::Face face(rig, mesh, face::quality_named("video"), options.out.string());
     const rig::Head& head = face.head();
 
@@ -369,11 +375,7 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
     if (options.calibrate) scale_muscles(face, options, standard, monitor, rig, report);
 
     // Write the rig and the report.
-    if ((report.lips_cut || changed) && !mesh.textures.empty())
-        report.notes.push_back(
-            "the changed mesh is written without the pictures of its materials: it has the colours "
-            "of the look");
-    outputs.write(standard, mesh, rig);
+    add_notes(outputs.write(standard, mesh, rig), report);
     report_head(rig, face, landmarks, report);
     const BoneEstimate bone = bone_estimate(head, rig, face.diagnostics().shell());
     report.bone = bone_figures(bone);

@@ -19,6 +19,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "risorius/geom/polygon_mesh.h"
 
@@ -40,5 +42,17 @@ geom::PolygonMesh read_mesh(const std::filesystem::path& file, const MeshReadOpt
 /// then renamed. Throws RunError when it cannot be written.
 void write_obj(const geom::PolygonMesh& mesh, const std::filesystem::path& file,
                double metres_per_unit = 1.0);
+
+/// The files that a mesh with pictures is written to: "head.obj", its materials "head.mtl", and, for each picture that is stored
+/// inside the file of the mesh, "head_1.png". Only the first one when the mesh has no pictures.
+std::vector<std::filesystem::path> obj_files(const geom::PolygonMesh& mesh,
+                                             const std::filesystem::path& obj);
+
+/// Writes these files, positions as they are. The materials name the other pictures where they lie, as seen from the folder of
+/// `obj`. `places`: the path to write each of the obj_files() to. Returns a sentence for each picture that is left out because
+/// no file of materials can name it. Throws RunError when a file cannot be written.
+std::vector<std::string> write_obj_with_pictures(const geom::PolygonMesh& mesh,
+                                                 const std::filesystem::path& obj,
+                                                 const std::vector<std::filesystem::path>& places);
 
 }  // namespace risorius::io

@@ -26,6 +26,7 @@ struct Polygon {
     std::vector<int> vertex;
     std::vector<Vec2> texcoord;  ///< empty when the mesh has no texture coordinates
     int group;
+    int texture = -1;  ///< index of its picture, or -1
 };
 
 using Edge = std::pair<int, int>;
@@ -41,6 +42,8 @@ class Cut {
             position_.push_back(laid_back.row(v).transpose());
         for (int f = 0; f < mesh.face_count(); ++f) {
             Polygon polygon{{}, {}, mesh.face_group[static_cast<std::size_t>(f)]};
+            if (!mesh.face_texture.empty())
+                polygon.texture = mesh.face_texture[static_cast<std::size_t>(f)];
             for (int c = mesh.face_begin[static_cast<std::size_t>(f)];
                  c < mesh.face_begin[static_cast<std::size_t>(f) + 1]; ++c) {
                 polygon.vertex.push_back(mesh.corner_vertex[static_cast<std::size_t>(c)]);
@@ -70,7 +73,7 @@ class Cut {
             }
             for (std::size_t k = 1; k + 1 < polygon.vertex.size(); ++k)
                 split_triangle(corner(polygon, 0), corner(polygon, k), corner(polygon, k + 1),
-                               polygon.group, out);
+                               polygon, out);
         }
         polygons_ = std::move(out);
     }
@@ -202,8 +205,10 @@ class Cut {
             }
     }
 
-    geom::PolygonMesh mesh(const std::vector<std::string>& group_names) const {
+    geom::PolygonMesh mesh(const std::vector<std::string>& group_names,
+                           const std::vector<geom::Texture>& textures) const {
         geom::PolygonMesh out;
+        out.textures = textures;
         Points points(static_cast<long>(position_.size()), 3);
         for (std::size_t v = 0; v < position_.size(); ++v)
             points.row(static_cast<long>(v)) = position_[v].transpose();
@@ -219,6 +224,7 @@ class Cut {
             }
             out.face_begin.push_back(static_cast<int>(out.corner_vertex.size()));
             out.face_group.push_back(polygon.group);
+            if (!textures.empty()) out.face_texture.push_back(polygon.texture);
         }
         out.corner_texcoord.resize(static_cast<long>(texcoords.size()), 2);
         for (std::size_t c = 0; c < texcoords.size(); ++c)
@@ -303,7 +309,8 @@ class Cut {
         return crossed || (on_line > 1 && polygon.vertex.size() > 3);
     }
 
-    void split_triangle(const Corner& a, const Corner& b, const Corner& c, int group,
+    /// `whole`: the polygon that the triangle is a part of.
+    void split_triangle(const Corner& a, const Corner& b, const Corner& c, const Polygon& whole,
                         std::vector<Polygon>& out) {
         const std::array<Corner, 3> corners{a, b, c};
         const auto between = [&](const Corner& p, const Corner& q) {
@@ -318,7 +325,7 @@ class Cut {
             count += mid[k].vertex >= 0;
         }
         const auto face = [&](const Corner& p, const Corner& q, const Corner& r) {
-            Polygon polygon{{p.vertex, q.vertex, r.vertex}, {}, group};
+            Polygon polygon{{p.vertex, q.vertex, r.vertex}, {}, whole.group, whole.texture};
             if (textured_) polygon.texcoord = {p.texcoord, q.texcoord, r.texcoord};
             out.push_back(std::move(polygon));
         };
@@ -431,7 +438,7 @@ CutLips cut_lips(const geom::PolygonMesh& mesh, const Head& head,
         if (std::abs(cut.position(out.upper[i]).x() - middle) <
             std::abs(cut.position(out.upper[static_cast<std::size_t>(out.middle)]).x() - middle))
             out.middle = static_cast<int>(i);
-    out.mesh = cut.mesh(names);
+    out.mesh = cut.mesh(names, mesh.textures);
     return out;
 }
 
