@@ -7,8 +7,11 @@
 //   FAULT_SIGNAL  or the signal that the process gets before it
 //   FAULT_KIND    only operations of this kind are counted, such as "rename"
 //   FAULT_LOG     a file to which each operation is appended
+//
+//   FAULT_THREAD_FROM   apart from that: no thread is started from the one with this number on
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <sys/stat.h>
@@ -135,6 +138,16 @@ int close(int file) {
     if (!failed) return result;
     errno = error;
     return -1;
+}
+
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*work)(void*),
+                   void* argument) noexcept {
+    static const auto next =
+        real<int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*)>("pthread_create");
+    static std::atomic<int> started{0};
+    const char* from = std::getenv("FAULT_THREAD_FROM");
+    if (from && ++started >= std::atoi(from)) return EAGAIN;
+    return next(thread, attributes, work, argument);
 }
 
 int fsync(int file) {

@@ -144,6 +144,69 @@ TEST(Outputs, AreGoneWithinASecondAfterAStop) {
         }
 }
 
+// An importer that never ends stands for one that reads a large mesh.
+TEST(Outputs, AStopWhileAMeshIsImportedEndsTheImporterToo) {
+    const Folder folder;
+    const std::string importer = (folder / "importer").string();
+    write(importer, "#!/bin/sh\necho $$ > '" + (folder / "pid").string() + "'\nexec sleep 300\n");
+    fs::permissions(importer, fs::perms::owner_all);
+    write(folder / "head.ply", "ply\n");
+    std::string rig = bytes_of(RISORIUS_SOURCE_DIR "/rigs/adult/rig.json");
+    const std::string mesh = "../../models/adult/head.obj", tables = "\"../standard/";
+    rig.replace(rig.find(mesh), mesh.size(), "head.ply");
+    for (std::size_t at; (at = rig.find(tables)) != std::string::npos;)
+        rig.replace(at, tables.size(), "\"" RISORIUS_SOURCE_DIR "/rigs/standard/");
+    write(folder / "rig.json", rig);
+    clip_in(folder);
+    const std::string landmarks = RISORIUS_SOURCE_DIR "/models/adult/landmarks.json";
+    ::setenv("RISORIUS_IMPORT_MESH", importer.c_str(), 1);
+    const std::set<std::string> before = folder.listing();
+    for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+             {"check", "rig.json"},
+             {"info", "rig.json"},
+             {"render", "clip.json", "--rig", "rig.json", "-o", "x.mp4"},
+             {"shapes", "rig.json", "-o", "s"},
+             {"fit", "head.ply", "--landmarks", landmarks, "-o", "new.json"}}) {
+        SCOPED_TRACE(command[0]);
+        const pid_t child = start(command, folder);
+        while (bytes_of(folder / "pid").empty())
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        const pid_t second = std::stoi(bytes_of(folder / "pid"));
+        fs::remove(folder / "pid");
+        const Clock::time_point begin = Clock::now();
+        ::kill(child, SIGINT);
+        EXPECT_EQ(wait_for(child), 130) << bytes_of(folder / "errors");
+        EXPECT_LT(std::chrono::duration<double>(Clock::now() - begin).count(), 1);
+        EXPECT_EQ(::kill(second, 0), -1) << "the importer still runs";
+        fs::remove(folder / "errors");
+        EXPECT_EQ(folder.listing(), before);
+    }
+    ::unsetenv("RISORIUS_IMPORT_MESH");
+}
+
+// llvmpipe waits without end for a thread that it was refused.
+TEST(Outputs, NeedNoMoreThreadsThanThereAre) {
+    const Folder folder;
+    const std::string render = clip_in(folder) + "--threads 4 --still 0 -o ";
+    ASSERT_EQ(run(render + "whole.png", folder.path()).code, 0);
+    for (const int refused_from : {1, 2, 3, 6, 11, 12, 13, 15, 16, 18, 24}) {
+        const Outcome done =
+            run(render + "x.png", folder.path(),
+                "FAULT_THREAD_FROM=" + std::to_string(refused_from) +
+                    " LD_PRELOAD=" RISORIUS_BINARY_DIR "/tests/librisorius_fault.so timeout 60");
+        SCOPED_TRACE("from " + std::to_string(refused_from) + ": " + done.errors);
+        if (done.code == 1) {
+            EXPECT_NE(done.errors.find("the system refuses some of the 4 threads"),
+                      std::string::npos);
+            EXPECT_FALSE(fs::exists(folder / "x.png"));
+            continue;
+        }
+        EXPECT_EQ(done.code, 0);
+        EXPECT_TRUE(bytes_of(folder / "x.png") == bytes_of(folder / "whole.png"));
+        fs::remove(folder / "x.png");
+    }
+}
+
 TEST(Outputs, WaitForNoSignalThatTheParentIgnores) {
     const Folder folder;
     const Outcome ignored =

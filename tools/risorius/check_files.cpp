@@ -17,6 +17,7 @@
 #include "risorius/stimuli/batch.h"
 #include "risorius/track/script.h"
 #include "tools/risorius/schema_check.h"
+#include "tools/risorius/stop_signals.h"
 
 namespace risorius::cli {
 
@@ -31,7 +32,7 @@ void note_pictures(const geom::PolygonMesh& mesh, CheckResult& result) {
 }
 
 void check_rig(const fs::path& file, CheckResult& result) {
-    const scene::RigFiles files = scene::read_rig_files(file);
+    const scene::RigFiles files = scene::read_rig_files(file, stop_is_asked);
     const rig::Head head = rig::place_head(files.rig, files.mesh, files.place());
     result.notes = files.rig.notes;
     note_pictures(files.mesh, result);
@@ -79,7 +80,8 @@ void check_script(const JsonCursor& json, CheckResult& result) {
     request.script = result.file;
     request.script_in_memory = json;
     request.out = "check.mkv";  // nothing is written
-    const animate::RenderJob job = animate::plan_render_job(request);
+    animate::RenderInputs inputs(stop_is_asked);
+    const animate::RenderJob job = animate::plan_render_job(request, inputs);
     result.notes = job.script.notes;
     note_late_events(job.script, result);
     note_idle_channels(job.script, result);
@@ -97,7 +99,8 @@ void check_landmarks(const fs::path& file, CheckResult& result) {
 
 // Only the skin has to be a manifold surface. Eyes and teeth may be open and intersect.
 void check_mesh_file(const fs::path& file, CheckResult& result) {
-    const geom::PolygonMesh mesh = io::read_mesh(file);
+    const geom::PolygonMesh mesh =
+        io::read_mesh(file, {.metres_per_unit = 1, .stopped = stop_is_asked});
     geom::MeshCheckOptions options;
     options.scale = geom::Severity::kIgnore;  // its unit is unknown
     for (std::size_t g = 0; g < mesh.group_names.size(); ++g)
@@ -126,7 +129,8 @@ void check(CheckResult& result) {
         json.at("format").one_of(std::vector<std::string_view>(formats.begin(), formats.end()));
     result.format = format.substr(std::string("risorius-").size());
     if (result.format == "script") check_script(json, result);
-    if (result.format == "design") result.notes = stimuli::plan_batch(result.file).notes;
+    if (result.format == "design")
+        result.notes = stimuli::plan_batch(result.file, stop_is_asked).notes;
     if (result.format == "experiment") figures::check_experiment(json);
     if (result.format == "landmarks") check_landmarks(result.file, result);
     if (result.format == "rig") check_rig(result.file, result);

@@ -6,6 +6,7 @@
 
 #include "risorius/rig/head.h"
 #include "risorius/scene/rig_files.h"
+#include "tools/risorius/stop_signals.h"
 
 namespace risorius::cli {
 
@@ -51,7 +52,7 @@ Json muscles_of(const rig::RigDescription& rig) {
 }  // namespace
 
 Json rig_info(const std::filesystem::path& rig_file) {
-    const scene::RigFiles files = scene::read_rig_files(rig_file);
+    const scene::RigFiles files = scene::read_rig_files(rig_file, stop_is_asked);
     const rig::Head head = rig::place_head(files.rig, files.mesh, files.place());
     Json out;
     out["name"] = files.rig.name;

@@ -64,7 +64,8 @@ RunRecord animate(const RenderRequest& request, const ProgressMonitor& monitor) 
             option_name("still_s") +
                 " with it, the name of a video, or of a folder of PNG frames, which ends in /",
             "\".png\" alone");
-    RenderJob job = plan_render_job(request);
+    RenderInputs inputs(monitor.stopped);
+    RenderJob job = plan_render_job(request, inputs);
     const fs::path record_file = report::output_path(job.out, ".json"),
                    table_file = report::output_path(job.out, ".frames.tsv");
     report::check_record(record_file);

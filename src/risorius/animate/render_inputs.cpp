@@ -32,7 +32,7 @@ std::shared_ptr<const RigInput> RenderInputs::rig(const fs::path& file) {
     if (!known) {
         auto read = std::make_shared<RigInput>();
         ReadChecksums sums;
-        read->files = scene::read_rig_files(file);
+        read->files = scene::read_rig_files(file, stopped_);
         read->rig = sums.of(read->files.file);
         read->mesh = sums.of(read->files.rig.mesh_file);
         for (const fs::path& table : read->files.rig.table_files)

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "risorius/animate/detail/run_record.h"
@@ -32,12 +34,16 @@ struct RigInput {
 /// Reads files and keeps them. Several threads may use the same object.
 class RenderInputs {
   public:
+    /// `stopped`: returns true when reading should stop; then Interrupted is thrown.
+    explicit RenderInputs(std::function<bool()> stopped = {}) : stopped_(std::move(stopped)) {}
+
     /// Throws Error when the file cannot be read or is not JSON.
     std::shared_ptr<const ScriptInput> script(const std::filesystem::path& file);
     /// Throws Error when the rig or its mesh cannot be used.
     std::shared_ptr<const RigInput> rig(const std::filesystem::path& file);
 
   private:
+    std::function<bool()> stopped_;
     std::mutex mutex_;
     std::map<std::filesystem::path, std::shared_ptr<const ScriptInput>> scripts_;
     std::map<std::filesystem::path, std::shared_ptr<const RigInput>> rigs_;

@@ -79,12 +79,13 @@ std::vector<report::ContactRow> rows_beside(const std::vector<std::filesystem::p
 }
 
 /// One job per script and rig. All have the size of the first.
-std::vector<RenderJob> plan_jobs(const SheetOptions& options) {
+std::vector<RenderJob> plan_jobs(const SheetOptions& options,
+                                 const std::function<bool()>& stopped) {
     RenderRequest request = options.view;
     request.out = options.out;
     request.times_s = options.times_s;
     std::sort(request.times_s.begin(), request.times_s.end());
-    RenderInputs inputs;
+    RenderInputs inputs(stopped);
     std::vector<RenderJob> jobs;
     const auto plan = [&] {
         jobs.push_back(plan_render_job(request, inputs));
@@ -117,7 +118,7 @@ std::vector<std::string> column_names(const SheetOptions& options,
 
 Json make_sheet(const SheetOptions& options, const ProgressMonitor& monitor) {
     check_sheet(options);
-    std::vector<RenderJob> jobs = plan_jobs(options);
+    std::vector<RenderJob> jobs = plan_jobs(options, monitor.stopped);
     const render::ViewOptions& first = jobs.front().view;
     std::vector<std::string> cameras = options.cameras;
     if (cameras.empty()) cameras = {first.camera};

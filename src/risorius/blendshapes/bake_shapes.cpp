@@ -223,7 +223,7 @@ Json ShapesReport::json() const {
 ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& monitor) {
     for (const std::string& format : options.formats)
         index_of_name(option_name("formats"), format, shape_formats());
-    const scene::RigFiles files = scene::read_rig_files(options.rig);
+    const scene::RigFiles files = scene::read_rig_files(options.rig, monitor.stopped);
     const ShapeSet set = shape_set(files.rig, options.set, options.only, files.place());
     report::AtomicFolder folder(options.out);
 

@@ -15,8 +15,9 @@ namespace {
 
 // One head and the displacements of its landmarks.
 struct Mover {
-    Mover(const std::filesystem::path& file, const std::string& quality)
-        : files(scene::read_rig_files(file)),
+    Mover(const std::filesystem::path& file, const std::string& quality,
+          const ProgressMonitor& monitor)
+        : files(scene::read_rig_files(file, monitor.stopped)),
           face(files.rig, files.mesh, face::quality_named(quality), files.place()),
           ways(face, files.rig, files.place()) {}
     scene::RigFiles files;
@@ -50,7 +51,7 @@ Json HeadComparison::json() const {
 HeadComparison compare_heads(const std::filesystem::path& rig, const std::filesystem::path& like,
                              const std::vector<std::string>& names, const std::string& quality,
                              const ProgressMonitor& monitor) {
-    Mover own(rig, quality), other(like, quality);
+    Mover own(rig, quality, monitor), other(like, quality, monitor);
     HeadComparison out{rig.generic_string(), like.generic_string(), {}};
     const std::vector<std::string>& ids = own.ways.landmarks();
     if (ids != other.ways.landmarks())

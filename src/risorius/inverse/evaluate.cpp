@@ -174,7 +174,7 @@ Json Evaluation::json() const {
 }
 
 Evaluation evaluate(const EvaluateOptions& options, const ProgressMonitor& monitor) {
-    const scene::RigFiles files = scene::read_rig_files(options.rig);
+    const scene::RigFiles files = scene::read_rig_files(options.rig, monitor.stopped);
     std::optional<report::AtomicFolder> folder;
     if (!options.out.empty()) folder.emplace(options.out);
     face::Face face(files.rig, files.mesh, face::quality_named(options.quality), files.place());

@@ -298,7 +298,7 @@ SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor
             throw Error(name, "a number in [0, 1000]", format_number(value));
     if (options.fps < 1 || options.fps > 240)
         throw Error(option_name("fps"), "an integer in [1, 240]", std::to_string(options.fps));
-    const scene::RigFiles files = scene::read_rig_files(options.rig);
+    const scene::RigFiles files = scene::read_rig_files(options.rig, monitor.stopped);
     report::AtomicFolder folder(options.out);
     monitor.report(0, "building the face");
     face::Face face(files.rig, files.mesh, face::quality_named(options.quality), files.place());
@@ -324,7 +324,7 @@ SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor
                                 face.head().vertices.rows());
     } else {
         given = options.meshes.empty() ? given_shapes(options.shapes, options.only, files, face)
-                                       : given_meshes(options.meshes, files, face);
+                                       : given_meshes(options.meshes, files, face, monitor.stopped);
     }
     const std::vector<ActivationUnknown> unknowns = unknowns_of(files, face.head(), given.weight);
     SolveReport report;

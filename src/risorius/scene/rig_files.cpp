@@ -27,11 +27,12 @@ geom::MeshReport check_skin(const rig::RigDescription& rig, const geom::PolygonM
     return report;
 }
 
-RigFiles read_rig_files(const std::filesystem::path& rig_file) {
+RigFiles read_rig_files(const std::filesystem::path& rig_file,
+                        const std::function<bool()>& stopped) {
     RigFiles files;
     files.file = rig_file;
     files.rig = rig::read_rig(rig_file);
-    files.mesh = io::read_mesh(files.rig.mesh_file);
+    files.mesh = io::read_mesh(files.rig.mesh_file, {.metres_per_unit = 1, .stopped = stopped});
     // Parts may be materials inside of a group.
     for (const auto& [role, groups] : files.rig.parts) geom::split_as_named(files.mesh, groups);
     check_skin(files.rig, files.mesh);

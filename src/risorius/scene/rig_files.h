@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "risorius/geom/mesh_checks.h"
@@ -21,8 +22,10 @@ struct RigFiles {
     std::string place() const { return file.string(); }
 };
 
-/// Reads both files. Throws Error when the rig or its mesh cannot be used.
-RigFiles read_rig_files(const std::filesystem::path& rig_file);
+/// Reads both files. Throws Error when the rig or its mesh cannot be used, and Interrupted when `stopped` returns true while
+/// another process reads the mesh.
+RigFiles read_rig_files(const std::filesystem::path& rig_file,
+                        const std::function<bool()>& stopped = {});
 
 /// Checks the outer skin by geom::check_mesh(); other parts of the mesh need not be manifold. Throws Error; the message names the
 /// mesh file, and ends with `advice` when geom::repair_mesh() can mend what is wrong.

@@ -106,7 +106,7 @@ double BatchPlan::megabytes() const {
     return sum;
 }
 
-BatchPlan plan_batch(const fs::path& file) {
+BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped) {
     const design::Design design = design::read_design(file);
     BatchPlan plan;
     plan.name = design.name;
@@ -115,7 +115,7 @@ BatchPlan plan_batch(const fs::path& file) {
     for (const design::ConditionSet& set : design.sets)
         if (!set.fraction.empty() || set.draw)
             plan.balances.emplace_back(set.name, design::balance_of(set, design.seed));
-    plan.inputs = std::make_shared<animate::RenderInputs>();
+    plan.inputs = std::make_shared<animate::RenderInputs>(stopped);
     SoundPlans sounds;
     for (const design::Condition& condition : design::conditions_of(design))
         plan.clips.push_back(plan_clip(condition, design, *plan.inputs, sounds));
@@ -234,7 +234,7 @@ void write_set_after_others(const BatchPlan& plan, const BatchOptions& options,
 
 BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monitor) {
     const report::Stopwatch time;
-    BatchPlan plan = plan_batch(options.design);
+    BatchPlan plan = plan_batch(options.design, monitor.stopped);
     check_own_folder(options.out);
     BatchReport report;
     report.name = plan.name;

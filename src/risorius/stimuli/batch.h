@@ -48,7 +48,8 @@ struct BatchPlan {
 };
 
 /// Reads the design, crosses its factors and checks every clip. Renders nothing. Throws Error for a wrong design.
-BatchPlan plan_batch(const std::filesystem::path& design);
+BatchPlan plan_batch(const std::filesystem::path& design,
+                     const std::function<bool()>& stopped = {});
 
 /// The result of make_batch(): numbers of clips and conditions.
 struct BatchReport {

@@ -85,11 +85,12 @@ FitTarget given_shapes(const fs::path& file, const std::vector<std::string>& onl
 }
 
 FitTarget given_meshes(const std::vector<fs::path>& meshes, const scene::RigFiles& files,
-                       const face::Face& face) {
+                       const face::Face& face, const std::function<bool()>& stopped) {
     const rig::Head& head = face.head();
     FitTarget out;
     for (const fs::path& file : meshes) {
-        const geom::PolygonMesh mesh = io::read_mesh(file);
+        const geom::PolygonMesh mesh =
+            io::read_mesh(file, {.metres_per_unit = 1, .stopped = stopped});
         if (mesh.vertex_count() != files.mesh.vertex_count())
             throw Error(file.string(),
                         "the " + std::to_string(files.mesh.vertex_count()) +

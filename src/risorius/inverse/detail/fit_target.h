@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,9 +29,11 @@ struct FitTarget {
 FitTarget given_shapes(const std::filesystem::path& file, const std::vector<std::string>& only,
                        const scene::RigFiles& files, const face::Face& face);
 
-/// Reads mesh files, copies of the rig's mesh with displaced vertices. Throws Error for a wrong file.
+/// Reads mesh files, copies of the rig's mesh with displaced vertices. Throws Error for a wrong file, and Interrupted when `stopped`
+/// returns true while another process reads a mesh.
 FitTarget given_meshes(const std::vector<std::filesystem::path>& meshes,
-                       const scene::RigFiles& files, const face::Face& face);
+                       const scene::RigFiles& files, const face::Face& face,
+                       const std::function<bool()>& stopped);
 
 /// Reads a table with the columns time_s and ID.x_mm, ID.y_mm, ID.z_mm, using at most `fps` rows per second. The motion of the
 /// head is estimated from landmarks that muscles hardly move, and removed. `max_m`: largest displacement of each of `points` by

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/render/detail/gl_context.h"
 
+#include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <latch>
 #include <mutex>
+#include <set>
+#include <string>
 #include <thread>
 #include <vector>
 
 #include "risorius/core/error.h"
 #include "risorius/core/parallel.h"
+#include "risorius/core/read_file.h"
 #include "risorius/render/detail/gl_backend.h"
 
 namespace risorius::render {
@@ -29,6 +34,35 @@ bool can_start(int threads) {
     for (int i = 0; i < threads && all; ++i) all = add_thread(started, [&] { begun.wait(); });
     begun.count_down();
     return all;
+}
+
+/// The names of the threads of llvmpipe that run: "llvmpipe-0" and so on.
+std::set<std::string> running_threads() {
+    constexpr FileKind kName{"the name of a thread", 4096};
+    std::set<std::string> names;
+    std::error_code ignored;
+    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", ignored)) {
+        try {
+            const std::string name = read_file(task.path() / "comm", kName);
+            if (name.starts_with("llvmpipe-")) names.insert(name);
+        } catch (const Error&) {
+            // This thread has ended.
+        }
+    }
+    return names;
+}
+
+/// Throws RunError when llvmpipe, which has just begun, lacks one of its threads. It would wait for it at the first drawing.
+void check_threads(int threads, const std::string& renderer) {
+    if (threads == 0 || renderer.find("llvmpipe") == std::string::npos) return;
+    constexpr std::chrono::milliseconds kPatience(3000), kAskEvery(2);
+    const auto until = std::chrono::steady_clock::now() + kPatience;
+    while (running_threads().size() < static_cast<std::size_t>(threads)) {
+        if (std::chrono::steady_clock::now() > until)
+            throw RunError("the system refuses some of the " + std::to_string(threads) +
+                           " threads that draw (one thread needs none of them)");
+        std::this_thread::sleep_for(kAskEvery);
+    }
 }
 
 GLuint compile(const std::string& name, GLenum stage, const std::string& source) {
@@ -52,14 +86,19 @@ GLuint compile(const std::string& name, GLenum stage, const std::string& source)
 GlContext::GlContext(int threads, const GlContext* shared) {
     // The driver reads its thread count from the environment when it creates its only screen.
     const std::lock_guard<std::mutex> lock(driver_mutex());
-    setenv("LP_NUM_THREADS", std::to_string(can_start(threads) ? threads : 0).c_str(), 1);
+    const int started = can_start(threads) ? threads : 0;
+    setenv("LP_NUM_THREADS", std::to_string(started).c_str(), 1);
     GlBackend& backend = gl_backend();
     context_ = backend.make_context(shared ? shared->context_ : nullptr);
     if (!context_) throw RunError(std::string("no OpenGL 4.5 context (") + backend.name() + ")");
     if (!backend.make_current(context_))
         throw RunError("the OpenGL context cannot be bound to this thread");
-    note_renderer(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+    const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    note_renderer(renderer);
     backend.make_current(nullptr);
+    static bool checked = false;  // the first context starts the threads
+    if (!checked) check_threads(started, renderer);
+    checked = true;
 }
 
 GlContext::~GlContext() {
