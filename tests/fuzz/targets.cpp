@@ -7,18 +7,23 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "paths.h"
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
 #include "risorius/design/conditions.h"
 #include "risorius/design/design.h"
 #include "risorius/design/detail/arithmetic.h"
 #include "risorius/design/detail/table.h"
+#include "risorius/headmodel/detail/identity.h"
+#include "risorius/headmodel/detail/tables.h"
+#include "risorius/inverse/measured_shapes.h"
 #include "risorius/io/mesh_message.h"
 #include "risorius/io/morph_model.h"
 #include "risorius/io/read_mesh.h"
 #include "risorius/media/detail/sound.h"
 #include "risorius/media/hdr_file.h"
 #include "risorius/media/picture_file.h"
+#include "risorius/rig/rig_description.h"
 #include "risorius/signal/recording.h"
 #include "risorius/track/script.h"
 #include "temporary_folder.h"
@@ -43,6 +48,11 @@ std::string text_of(const std::uint8_t* data, std::size_t size) {
     return {reinterpret_cast<const char*>(data), size};
 }
 
+/// A file that others name. It is made once in a process.
+void make_beside(const char* name, const std::string& bytes) {
+    file_of(name, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+}
+
 void walk(const JsonCursor& value) {
     if (value.is_object())
         for (const std::string& key : value.keys()) walk(value.at(key));
@@ -50,29 +60,113 @@ void walk(const JsonCursor& value) {
         for (const JsonCursor& item : value.items()) walk(item);
 }
 
-void read_json(const std::uint8_t* data, std::size_t size) {
+void read_json(const std::uint8_t* data, std::size_t size, Digest& digest) {
     const JsonCursor json = parse_json_text(text_of(data, size), "input.json");
-    json_text(json.json());
+    digest.add(json_text(json.json()));
     walk(json);
 }
 
-void read_script(const std::uint8_t* data, std::size_t size) {
+void read_script(const std::uint8_t* data, std::size_t size, Digest& digest) {
     const track::StandardTables& tables = track::StandardTables::get();
-    track::read_script(parse_json_text(text_of(data, size), "input.json"), tables.channels,
-                       tables.facs, tables.expressions);
+    const track::ScriptDescription script =
+        track::read_script(parse_json_text(text_of(data, size), "input.json"), tables.channels,
+                           tables.facs, tables.expressions);
+    digest.add(script.header.duration_s);
+    for (const track::ChannelTrack& channel : script.channels) {
+        digest.add(channel.name);
+        for (const track::Key& key : channel.keys) digest.add(key.value);
+    }
+    for (const track::ExpressionEvent& event : script.expressions) digest.add(event.expression);
+    digest.add(script.blinks.size());
+    for (const std::string& note : script.notes) digest.add(note);
 }
 
-void read_design(const std::uint8_t* data, std::size_t size) {
-    design::conditions_of(design::read_design(file_of("design.json", data, size)));
+void read_design(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    for (const design::Condition& one :
+         design::conditions_of(design::read_design(file_of("design.json", data, size)))) {
+        digest.add(one.clip);
+        digest.add(json_text(one.script));
+    }
 }
 
-void read_arithmetic(const std::uint8_t* data, std::size_t size) {
-    design::arithmetic(text_of(data, size), "formula", [](const std::string&) { return 2.0; });
+void read_arithmetic(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    digest.add(
+        design::arithmetic(text_of(data, size), "formula", [](const std::string&) { return 2.0; }));
 }
 
-void read_message(const std::uint8_t* data, std::size_t size) {
+void read_table(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    for (const auto& row : design::read_table(file_of("table.tsv", data, size)))
+        for (const design::Given& given : row) {
+            digest.add(given.name);
+            digest.add(json_text(given.value.json()));
+        }
+}
+
+void read_recording(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    const signal::Recording table =
+        signal::Recording::read_file(file_of("recording.tsv", data, size));
+    for (std::size_t column = 0; column < table.columns().size(); ++column) {
+        digest.add(table.columns()[column]);
+        try {
+            digest.add(table.samples(static_cast<int>(column)));
+        } catch (const Error&) {
+            digest.add("no numbers");
+        }
+    }
+}
+
+void add_mesh(const geom::PolygonMesh& mesh, Digest& digest) {
+    digest.add(mesh.positions);
+    digest.add(mesh.face_begin);
+    digest.add(mesh.corner_vertex);
+    digest.add(mesh.corner_texcoord);
+    digest.add(mesh.face_group);
+    digest.add(mesh.face_texture);
+    digest.add(mesh.face_material);
+    for (const std::string& name : mesh.group_names) digest.add(name);
+    for (const std::string& name : mesh.material_names) digest.add(name);
+    for (const geom::Texture& texture : mesh.textures) {
+        digest.add(texture.file.string());
+        digest.add(texture.embedded);
+    }
+    for (const std::string& note : mesh.notes) digest.add(note);
+}
+
+/// Reads a mesh in a file of this name. "beside.mtl" is a file of materials that it can name.
+template <const char* name>
+void read_mesh(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    static const bool made = (make_beside("beside.mtl", "newmtl skin\nmap_Kd skin.png\n"), true);
+    if (made) add_mesh(io::read_mesh(file_of(name, data, size)), digest);
+}
+
+void read_materials(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    static const bool made = (make_beside("painted.obj",
+                                          "mtllib painted.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                                          "vt 0 0\nusemtl skin\nf 1/1 2/1 3/1\n"),
+                              true);
+    if (!made) return;
+    const fs::path materials = file_of("painted.mtl", data, size);
+    add_mesh(io::read_mesh(materials.parent_path() / "painted.obj"), digest);
+}
+
+void read_shapes(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    const io::MorphModel model = io::read_glb(file_of("shapes.glb", data, size));
+    digest.add(model.name);
+    digest.add(model.vertices);
+    digest.add(model.stands_for);
+    for (const io::MorphPart& part : model.parts) digest.add(part.triangles);
+    for (const io::MorphTarget& target : model.targets) {
+        digest.add(target.name);
+        digest.add(target.vertex);
+        digest.add(target.delta);
+    }
+    for (const io::MorphAnimation& animation : model.animations) digest.add(animation.weights);
+    digest.add(json_text(model.extras));
+}
+
+void read_message(const std::uint8_t* data, std::size_t size, Digest& digest) {
     io::MeshProblem problem;
-    io::read_mesh_message(
+    const auto mesh = io::read_mesh_message(
         [&](void* to, std::size_t count) {
             if (count > size) return false;
             std::memcpy(to, data, count);
@@ -81,48 +175,98 @@ void read_message(const std::uint8_t* data, std::size_t size) {
             return true;
         },
         problem);
+    if (mesh) add_mesh(*mesh, digest);
+    digest.add(problem.expected);
 }
 
-void read_sound(const std::uint8_t* data, std::size_t size) {
+void read_light(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    digest.add(media::read_hdr(file_of("light.hdr", data, size)).rgb);
+}
+
+void read_sound(const std::uint8_t* data, std::size_t size, Digest& digest) {
     const media::Recording recording = media::open_recording(file_of("input.wav", data, size));
-    media::part_of(recording, -10, 1000);
+    digest.add(media::part_of(recording, -10, 1000).samples);
 }
 
-void read_picture(const std::uint8_t* data, std::size_t size) {
-    media::read_picture({data, data + size}, "input.png");
+void read_picture(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    digest.add(media::read_picture({data, data + size}, "input.png").rgba);
 }
+
+void read_landmarks(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    for (const auto& [id, landmark] : rig::read_landmarks(file_of("landmarks.json", data, size))) {
+        digest.add(id);
+        digest.add(landmark.vertex);
+        if (landmark.vertex < 0) digest.add(landmark.xyz);
+    }
+}
+
+void read_identity(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    static const headmodel::DesignTables tables =
+        headmodel::read_design_tables(headmodel::models_folder() / "adult/design");
+    const headmodel::Identity identity =
+        headmodel::read_identity(file_of("identity.json", data, size), tables);
+    for (const std::string& word : {identity.name, identity.skin, identity.iris, identity.hair})
+        digest.add(word);
+    for (const double number : {identity.sex, identity.age, identity.freckles, identity.scalp_hair,
+                                identity.hairline, identity.temples, identity.beard})
+        digest.add(number);
+    for (const auto& [name, value] : identity.shape) {
+        digest.add(name);
+        digest.add(value);
+    }
+}
+
+/// A table of measured shapes of a mesh with two vertices, beside numbers for two shapes.
+void read_shapes_table(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    static const bool made = (make_beside("measured.f32", std::string(48, '\0')), true);
+    static const rig::RigDescription adult =
+        rig::read_rig(fs::path(RISORIUS_SOURCE_DIR) / "rigs/adult/rig.json");
+    static const rig::Head head = [] {
+        rig::Head one;
+        one.vertices = Points::Zero(2, 3);
+        return one;
+    }();
+    if (!made) return;
+    for (const inverse::MeasuredShape& shape :
+         inverse::read_measured_shapes(file_of("measured.json", data, size), {}, adult, head)) {
+        digest.add(shape.name);
+        digest.add(shape.displacement);
+        digest.add(shape.drive.excitation);
+    }
+}
+
+constexpr char kObj[] = "input.obj", kGlb[] = "input.glb", kGltf[] = "input.gltf";
 
 }  // namespace
 
+void Digest::add(const void* bytes, std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i)
+        sum_ = (sum_ ^ static_cast<const unsigned char*>(bytes)[i]) * 1099511628211U;
+}
+
 const std::vector<Target>& targets() {
     static const std::vector<Target> list{
-        {"json", read_json},
-        {"script", read_script},
-        {"design", read_design},
-        {"arithmetic", read_arithmetic},
-        {"table",
-         [](auto* data, auto size) { design::read_table(file_of("table.tsv", data, size)); }},
-        {"recording",
-         [](auto* data, auto size) {
-             signal::Recording::read_file(file_of("recording.tsv", data, size));
-         }},
-        {"obj", [](auto* data, auto size) { io::read_mesh(file_of("input.obj", data, size)); }},
-        {"glb", [](auto* data, auto size) { io::read_mesh(file_of("input.glb", data, size)); }},
-        {"gltf", [](auto* data, auto size) { io::read_mesh(file_of("input.gltf", data, size)); }},
-        {"shapes", [](auto* data, auto size) { io::read_glb(file_of("shapes.glb", data, size)); }},
-        {"mesh_message", read_message},
-        {"hdr", [](auto* data, auto size) { media::read_hdr(file_of("light.hdr", data, size)); }},
-        {"picture", read_picture},
-        {"sound", read_sound}};
+        {"json", read_json},         {"script", read_script},
+        {"design", read_design},     {"arithmetic", read_arithmetic},
+        {"table", read_table},       {"recording", read_recording},
+        {"obj", read_mesh<kObj>},    {"mtl", read_materials},
+        {"glb", read_mesh<kGlb>},    {"gltf", read_mesh<kGltf>},
+        {"shapes", read_shapes},     {"mesh_message", read_message},
+        {"hdr", read_light},         {"picture", read_picture},
+        {"sound", read_sound},       {"landmarks", read_landmarks},
+        {"identity", read_identity}, {"shapes_table", read_shapes_table}};
     return list;
 }
 
-void run(const Target& target, const std::uint8_t* data, std::size_t size) {
+std::uint64_t run(const Target& target, const std::uint8_t* data, std::size_t size) {
     try {
-        target.read(data, size);
+        Digest digest;
+        target.read(data, size, digest);
+        return digest.value();
     } catch (const Error&) {
     } catch (const RunError&) {
     }
+    return 0;
 }
 
 }  // namespace risorius::fuzz

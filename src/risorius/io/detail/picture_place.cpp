@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/io/detail/picture_place.h"
 
+#include <dirent.h>
+
 #include <algorithm>
 #include <cctype>
+#include <memory>
 #include <system_error>
 
 namespace risorius::io::detail {
@@ -28,11 +31,14 @@ const std::map<std::string, std::string>& PicturePlaces::names_in(const fs::path
     constexpr int kMostListed = 100'000;
     const auto [entry, is_new] = listed_.try_emplace(folder);
     if (!is_new) return entry->second;
-    std::error_code failed;
+    // std::filesystem::directory_iterator ends the program where it gets no memory.
+    const std::unique_ptr<::DIR, int (*)(::DIR*)> open(
+        ::opendir(folder.empty() ? "." : folder.c_str()), &::closedir);
+    if (!open) return entry->second;
     int count = 0;
-    for (fs::directory_iterator file(folder.empty() ? "." : folder, failed), end;
-         !failed && file != end && ++count <= kMostListed; file.increment(failed)) {
-        const std::string name = file->path().filename().string();
+    while (const ::dirent* file = ::readdir(open.get())) {
+        if (++count > kMostListed) break;
+        const std::string name = file->d_name;
         // Of several names that differ in case only, the result is the same whatever the order of the folder.
         const auto [known, added] = entry->second.try_emplace(small_letters(name), name);
         if (!added) known->second = std::min(known->second, name);
