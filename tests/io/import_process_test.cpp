@@ -2,11 +2,13 @@
 // Meshes that are read by another process, and what that process may say.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <optional>
 #include <string>
 
@@ -129,15 +131,71 @@ TEST(ImportProcess, ACrashIsAnErrorThatSaysSo) {
               std::string::npos);
 }
 
-TEST(ImportProcess, StripsInPlyAreRefused) {
+/// The bytes of numbers in the order of this machine, or the other one.
+template <typename Value>
+std::string packed(std::initializer_list<Value> values, bool turned) {
+    std::string out;
+    for (const Value value : values) {
+        std::string bytes(sizeof value, '\0');
+        std::memcpy(bytes.data(), &value, sizeof value);
+        if (turned) std::reverse(bytes.begin(), bytes.end());
+        out += bytes;
+    }
+    return out;
+}
+
+TEST(ImportProcess, StripsInPlyAreTriangles) {
     const TemporaryFolder folder;
-    std::ofstream(folder / "strips.ply")
-        << "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-           "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
-           "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 1 2 3\n";
-    EXPECT_EQ(message_of([&] { read_mesh(folder / "strips.ply"); }),
-              (folder / "strips.ply").string() +
-                  ": expected faces (export the mesh as triangles), found strips of triangles");
+    const auto header = [](const std::string& format) {
+        return "ply\nformat " + format +
+               " 1.0\nelement vertex 6\nproperty float x\nproperty uchar red\n"
+               "property float y\nproperty float z\nproperty float s\nproperty float t\n"
+               "element face 1\nproperty list uchar int vertex_indices\n"
+               "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
+    };
+    std::string text = header("ascii"), numbers[2];
+    for (int v = 0; v < 6; ++v)
+        text += std::to_string(v % 2) + " 255 +" + std::to_string(v / 2) + " 0.5 0.25 " +
+                std::to_string(v) + "\n";
+    // A triangle, a strip of three, and after its end one of a single triangle
+    text += "3 0 1 2\n9 0 1 2 3 4 -1 2 3 5\n";
+    std::ofstream(folder / "text.ply") << text;
+    for (const bool turned : {false, true}) {
+        std::string& bytes = numbers[turned ? 1 : 0];
+        for (int v = 0; v < 6; ++v)
+            bytes +=
+                packed({static_cast<float>(v % 2)}, turned) + '\xff' +
+                packed({static_cast<float>(v / 2), 0.5F, 0.25F, static_cast<float>(v)}, turned);
+        bytes +=
+            '\x03' + packed({0, 1, 2}, turned) + packed({9, 0, 1, 2, 3, 4, -1, 2, 3, 5}, turned);
+    }
+    const std::string little = header("binary_little_endian") + numbers[0];
+    std::ofstream(folder / "little.ply") << little;
+    std::ofstream(folder / "big.ply") << header("binary_big_endian") + numbers[1];
+    for (const char* name : {"text.ply", "little.ply", "big.ply"}) {
+        SCOPED_TRACE(name);
+        const geom::PolygonMesh mesh = read_mesh(folder / name);
+        ASSERT_EQ(mesh.vertex_count(), 6);
+        EXPECT_EQ(Vec3(mesh.positions.row(3).transpose()), Vec3(1, 1, 0.5));
+        EXPECT_EQ(mesh.corner_vertex,
+                  (std::vector<int>{0, 1, 2, 0, 1, 2, 2, 1, 3, 2, 3, 4, 2, 3, 5}));
+        ASSERT_EQ(mesh.corner_texcoord.rows(), 15);
+        EXPECT_EQ(Vec2(mesh.corner_texcoord.row(8).transpose()), Vec2(0.25, 3));
+        EXPECT_TRUE(mesh.in_file_order);
+    }
+    const auto message = [&](const std::string& bytes) {
+        std::ofstream(folder / "wrong.ply") << bytes;
+        const std::string said = message_of([&] { read_mesh(folder / "wrong.ply"); });
+        return said.substr(std::min(said.size(), (folder / "wrong.ply").string().size()));
+    };
+    for (std::size_t size = little.find("tristrips 1") + 12; size < little.size(); ++size)
+        EXPECT_TRUE(message(little.substr(0, size)).starts_with(": expected ")) << size;
+    std::string wrong = text;
+    wrong.replace(wrong.rfind("-1 2"), 4, "-1 7");
+    EXPECT_EQ(message(wrong), ": expected vertices in 0 .. 5, found 7");
+    wrong = text;
+    wrong.replace(wrong.find("vertex 6"), 8, "vertex 9999999999");
+    EXPECT_TRUE(message(wrong).starts_with(": expected ")) << message(wrong);
 }
 
 TEST(ImportProcess, ThatIsNotInstalledIsNamed) {

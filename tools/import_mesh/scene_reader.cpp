@@ -10,7 +10,6 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cctype>
-#include <cstdio>
 #include <cstring>
 #include <map>
 #include <set>
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "risorius/geom/part_sheets.h"
+#include "tools/import_mesh/ply_strips.h"
 
 namespace risorius::import_mesh {
 namespace {
@@ -53,20 +53,6 @@ class FilesToRead : public Assimp::DefaultIOSystem {
         return *mode == 'r' && Exists(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
     }
 };
-
-/// assimp loses the first triangles of a strip in a PLY file.
-void refuse_strips(const std::filesystem::path& file) {
-    constexpr std::size_t kLongestHeader = 1 << 16;
-    std::string header(kLongestHeader, '\0');
-    std::FILE* in = std::fopen(file.c_str(), "rb");
-    if (in == nullptr) return;
-    header.resize(std::fread(header.data(), 1, header.size(), in));
-    std::fclose(in);
-    header.resize(std::min(header.find("end_header"), header.size()));
-    if (header.find("element tristrips") != std::string::npos)
-        throw NoMesh(
-            {file.string(), "faces (export the mesh as triangles)", "strips of triangles"});
-}
 
 bool has_polygons(const aiMesh& mesh) {
     return std::any_of(mesh.mFaces, mesh.mFaces + mesh.mNumFaces,
@@ -263,7 +249,7 @@ geom::PolygonMesh read_scene(const std::filesystem::path& file) {
     std::string ending = file.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (ending == ".ply") refuse_strips(file);
+    if (ending == ".ply" && has_strips(file)) return read_ply_with_strips(file);
     Assimp::Importer importer;
     importer.SetIOHandler(new FilesToRead);  // which the importer owns
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
