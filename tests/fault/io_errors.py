@@ -6,6 +6,7 @@ After each run, the output must be absent, the former one, or the new one, and w
 hidden file beside it. Prints the number of operations and runs of each command. Exit code 1: a promise is broken.
 
     io_errors.py PROGRAM LIBRARY              a few operations of each command, for ctest
+    io_errors.py PROGRAM LIBRARY --each       every operation with one fault, which changes from one to the next
     io_errors.py PROGRAM LIBRARY --all        every operation with every fault, which takes hours
 """
 import argparse
@@ -174,7 +175,7 @@ class Loop:
             self.tell("after one more run", where,
                       (again.returncode, again.stderr, sorted(files), hidden))
 
-    def all(self, every, names):
+    def all(self, every, each, names):
         faults = [({"FAULT_ERROR": str(e)}, errno.errorcode[e]) for e in ERRORS]
         faults += [({"FAULT_SIGNAL": str(int(s))}, s.name) for s in SIGNALS]
         faults = [fault for fault in faults if not names or fault[1] in names]
@@ -183,12 +184,13 @@ class Loop:
             operations = self.operations(with_former)
             total += len(operations)
             chosen = range(1, len(operations) + 1)
-            if not every:
+            if not every and not each:
                 # The operations around the decision, with a fault that changes from one to the next
                 moves = [i for i, o in enumerate(operations, 1) if o.startswith("rename")]
                 chosen = sorted({2, *moves[-3:], *(i + 1 for i in moves[-1:])})
             for n, at in enumerate(chosen):
-                for fault, name in faults if every else [faults[(2 + n * 3) % len(faults)]]:
+                step = 1 if each else 3
+                for fault, name in faults if every else [faults[(2 + n * step) % len(faults)]]:
                     self.try_one(at, with_former, fault, name)
         print(f"{self.command.name}: {total} operations, {self.runs} runs with a fault, "
               f"{self.broken} broken promises", flush=True)
@@ -200,6 +202,7 @@ def main():
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("library", type=pathlib.Path)
     parser.add_argument("--all", action="store_true")
+    parser.add_argument("--each", action="store_true")
     parser.add_argument("--only", default="render,head", help="commands: render,head,batch,shapes,fit")
     parser.add_argument("--faults", default="", help="such as ENOSPC,SIGKILL; default: all")
     arguments = parser.parse_args()
@@ -211,7 +214,7 @@ def main():
             scratch = pathlib.Path(base) / command.name
             scratch.mkdir()
             broken += Loop(arguments.program.resolve(), arguments.library.resolve(), command,
-                           scratch).all(arguments.all, arguments.faults)
+                           scratch).all(arguments.all, arguments.each, arguments.faults)
     sys.exit(1 if broken else 0)
 
 

@@ -86,6 +86,18 @@ TEST(OwnFiles, AreNotFoundThroughLinks) {
     EXPECT_EQ(own_files(folder.path()), Files{"triggers.tsv"});
 }
 
+TEST(OwnFiles, ThatSidecarsNameAreNotFoundThroughLinks) {
+    for (const fs::path below : {"overview", "code", "code/scripts"}) {
+        const TemporaryFolder folder;
+        write_set(folder);
+        fs::rename(folder.path() / below, folder / "elsewhere");
+        fs::create_directory_symlink(folder / "elsewhere", folder.path() / below);
+        const Files own = own_files(folder.path());
+        EXPECT_EQ(own.count("overview/a.png"), below == "overview" ? 0U : 1U);
+        EXPECT_EQ(own.count("code/scripts/a.json"), below == "overview" ? 1U : 0U);
+    }
+}
+
 TEST(OwnFiles, FoldersOfOthersAreRefused) {
     const TemporaryFolder folder;
     check_own_folder(folder / "new");

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The command line: turns arguments into calls of the library, and exceptions into messages and exit codes.
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <new>
 #include <regex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "risorius/core/error.h"
@@ -169,6 +173,20 @@ int run(int argc, char** argv) {
     return kDone;
 }
 
+/// For exceptions that nobody can catch. The destructor of a JSON value needs memory; where it gets none, the program ends here.
+[[noreturn]] void end_without_memory() {
+    try {
+        if (const std::exception_ptr thrown = std::current_exception())
+            std::rethrow_exception(thrown);
+    } catch (const std::bad_alloc&) {
+        constexpr std::string_view kMessage = "risorius: not enough memory\n";
+        if (::write(STDERR_FILENO, kMessage.data(), kMessage.size()) >= 0) ::_exit(kFailed);
+        ::_exit(kFailed);
+    } catch (...) {
+    }
+    std::abort();
+}
+
 /// Whether everything that was printed has arrived.
 bool is_printed() {
     std::cout.flush();
@@ -178,6 +196,7 @@ bool is_printed() {
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::set_terminate(end_without_memory);
     risorius::cli::catch_stop_signals();
     const int code = run(argc, argv);
     risorius::cli::end_of_run();
