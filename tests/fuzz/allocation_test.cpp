@@ -135,8 +135,9 @@ TEST(Allocations, EachMayFailInEachReader) {
                 const Outcome outcome = read_with(target, bytes, given);
                 EXPECT_EQ(outcome.kept, 0) << "after " << given << " allocations";
                 // Some functions of the library do with less, such as stable_sort().
-                if (!outcome.threw)
+                if (!outcome.threw) {
                     EXPECT_EQ(outcome.digest, whole.digest) << "after " << given << " allocations";
+                }
                 if (!outcome.failed) break;
                 ++failures;
             }
