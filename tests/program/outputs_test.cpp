@@ -169,8 +169,9 @@ TEST(Outputs, AStopWhileAMeshIsImportedEndsTheImporterToo) {
              {"fit", "head.ply", "--landmarks", landmarks, "-o", "new.json"}}) {
         SCOPED_TRACE(command[0]);
         const pid_t child = start(command, folder);
-        while (bytes_of(folder / "pid").empty())
+        for (int i = 0; i < 6000 && bytes_of(folder / "pid").empty(); ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        ASSERT_FALSE(bytes_of(folder / "pid").empty()) << bytes_of(folder / "errors");
         const pid_t second = std::stoi(bytes_of(folder / "pid"));
         fs::remove(folder / "pid");
         const Clock::time_point begin = Clock::now();
