@@ -128,7 +128,8 @@ TEST(MorphModel, WholeNumbersAreWithinHalfAStepAndWhatTheirExtensionAsksFor) {
 TEST(MorphModel, IsWhatTheSpecificationOfGlTfAsksFor) {
     MorphModel model = two_quads();
     model.whole_numbers = false;
-    const auto [json, binary] = chunks(glb_bytes(model));
+    const auto read = chunks(glb_bytes(model));
+    const auto &json = read.first, &binary = read.second;
     EXPECT_EQ(json["asset"]["version"], "2.0");
     const Json& mesh = json["meshes"][0];
     EXPECT_EQ(mesh["extras"]["targetNames"], Json({"lift", "nothing", "push"}));

@@ -171,11 +171,12 @@ TEST_F(Installed, ComponentThatWasNotAskedForIsNamed) {
 }
 
 TEST_F(Installed, PkgConfigLinksAProgram) {
-    const ShellResult said =
-        run("export PKG_CONFIG_PATH=$(dirname \"$(find " + quoted(prefix()) +
-            " -name risorius.pc)\"); " + "c++ " + quoted(kSamples / "soft_body.cpp") + " -o " +
-            quoted(scratch("soft_body")) + " $(pkg-config --cflags --libs risorius) && " +
-            quoted(scratch("soft_body")));
+    const ShellResult said = run(
+        "export PKG_CONFIG_PATH=$(dirname \"$(find " + quoted(prefix()) +
+        " -name risorius.pc)\"); " + "c++ " + quoted(kSamples / "soft_body.cpp") + " -o " +
+        quoted(scratch("soft_body")) +
+        " $(pkg-config --cflags --libs risorius) && " +  // shared libraries lie there
+        "LD_LIBRARY_PATH=$(pkg-config --variable=libdir risorius) " + quoted(scratch("soft_body")));
     EXPECT_EQ(said.code, 0) << said.output;
     EXPECT_TRUE(said.output.starts_with("time_s\t")) << said.output;
 }

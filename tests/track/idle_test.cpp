@@ -36,12 +36,11 @@ TEST(Idle, BlinksComeAtTheRateAskedForWithARightSkewedSpread) {
     const auto blinks = idle_blinks({.start_s = 0, .end_s = 36000, .options = {}});
     const double per_minute = static_cast<double>(blinks.size()) / 600;
     EXPECT_NEAR(per_minute, 17, 0.5);
-    double sum = 0, squares = 0, below = 0;
+    double squares = 0, below = 0;
     const double mean = 60.0 / 17;
     for (std::size_t i = 1; i < blinks.size(); ++i) {
         const double apart = blinks[i].start_s - blinks[i - 1].start_s;
         EXPECT_GE(apart, 0.3 - 1e-9);
-        sum += apart;
         squares += (apart - mean) * (apart - mean);
         below += apart < mean;
     }

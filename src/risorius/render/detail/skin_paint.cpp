@@ -184,7 +184,7 @@ GLuint paint_skin(const Scene& scene, const SceneBuffers& buffers, const OwnText
 
 GLuint make_pores(unsigned seed) {
     constexpr int kSide = 512;  // of a 20 mm tile
-    constexpr int kPores = 5200;
+    constexpr int kPoreCount = 5200;
     constexpr auto kCount = static_cast<std::size_t>(kSide) * kSide;
     std::vector<float> height(kCount, 0.0F);
     RandomSequence random(seed * 7919U + 17U);
@@ -196,7 +196,7 @@ GLuint make_pores(unsigned seed) {
         const double u = 2 * std::numbers::pi * x / kSide, v = 2 * std::numbers::pi * y / kSide;
         return 0.60 + 0.20 * std::sin(2 * u + std::sin(v)) + 0.20 * std::sin(3 * v - u + 1.0);
     };
-    for (int i = 0; i < kPores; ++i) {
+    for (int i = 0; i < kPoreCount; ++i) {
         const double cx = random.next() * kSide, cy = random.next() * kSide;
         const double large = std::pow(random.next(), 3.0), shallow = random.next();
         if (random.next() > crowded(cx, cy)) continue;
