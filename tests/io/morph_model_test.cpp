@@ -129,7 +129,8 @@ TEST(MorphModel, IsWhatTheSpecificationOfGlTfAsksFor) {
     MorphModel model = two_quads();
     model.whole_numbers = false;
     const auto read = chunks(glb_bytes(model));
-    const auto &json = read.first, &binary = read.second;
+    const Json& json = read.first;
+    const std::string& binary = read.second;
     EXPECT_EQ(json["asset"]["version"], "2.0");
     const Json& mesh = json["meshes"][0];
     EXPECT_EQ(mesh["extras"]["targetNames"], Json({"lift", "nothing", "push"}));

@@ -144,6 +144,12 @@ Image read_picture(const std::vector<std::uint8_t>& bytes, const std::string& na
     AVFormatContext* format = avformat_alloc_context();
     if (!format) throw std::bad_alloc();
     format->pb = file.io();
+    // FFmpeg knows some 300 kinds of files, of sound and subtitles too. Bytes that look like these are not read any further.
+    format->format_whitelist = av_strdup("png_pipe,jpeg_pipe,bmp_pipe,tiff_pipe,webp_pipe");
+    if (!format->format_whitelist) {
+        avformat_free_context(format);
+        throw std::bad_alloc();
+    }
     // On failure FFmpeg frees the context.
     if (avformat_open_input(&format, nullptr, nullptr, nullptr) < 0) throw no_picture;
     struct Close {
