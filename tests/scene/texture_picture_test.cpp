@@ -9,9 +9,11 @@
 #include <iterator>
 
 #include "message_of.h"
+#include "paths.h"
 #include "risorius/io/read_mesh.h"
 #include "risorius/media/image_file.h"
 #include "risorius/scene/scene_from_rig.h"
+#include "temporary_folder.h"
 
 namespace risorius::scene {
 namespace {
@@ -104,10 +106,12 @@ TEST(Textures, WhatCannotBeReadIsToldForEachPicture) {
 
 TEST(Textures, AFileThatIsNoPictureIsRefused) {
     const geom::Texture texture{folder() / "words.png", "here", {}};
-    // FFmpeg would read the second one, as it would read films, sound and subtitles.
+    // FFmpeg would read the second one, as it would read films, sound and subtitles. The third one states 133 million pixels in 55
+    // bytes.
     for (const std::string& bytes :
-         {"no picture at all, only words"s, "P6 1 1 255\n\x01\x02\x03"s}) {
-        std::ofstream(folder() / "words.png") << bytes;
+         {"no picture at all, only words"s, "P6 1 1 255\n\x01\x02\x03"s,
+          bytes_of(RISORIUS_SOURCE_DIR "/tests/fuzz/seeds/picture/huge.bmp")}) {
+        std::ofstream(folder() / "words.png", std::ios::binary) << bytes;
         EXPECT_EQ(message_of([&] { read_texture(texture); }),
                   (folder() / "words.png").string() +
                       ": expected a picture (PNG, JPEG, TGA, BMP, TIFF, WebP), found another kind "

@@ -86,14 +86,18 @@ Image rgba_of(const AVFrame& picture, const std::string& name) {
     return image;
 }
 
-CodecPtr codec_for(const AVCodec* decoder) {
+/// `bytes`: of the file. A large picture needs a large file, unless it is a damaged one that states any size.
+CodecPtr codec_for(const AVCodec* decoder, std::size_t bytes) {
     constexpr std::int64_t kMostPixels =
         300'000'000;  // 16,384 squared, the largest that graphics cards take
+    constexpr std::int64_t kOfSmallFile = 20'000'000;  // 4096 squared, of one colour
+    constexpr std::int64_t kOfEachByte = 10'000;       // what compression by zlib can reach
     CodecPtr codec(avcodec_alloc_context3(decoder));
     if (!codec) throw std::bad_alloc();
     codec->thread_count = 1;
     codec->err_recognition = AV_EF_CRCCHECK | AV_EF_EXPLODE;
-    codec->max_pixels = kMostPixels;
+    codec->max_pixels =
+        std::min(kMostPixels, kOfSmallFile + kOfEachByte * static_cast<std::int64_t>(bytes));
     return codec;
 }
 
@@ -121,7 +125,7 @@ bool may_be_tga(const std::vector<std::uint8_t>& bytes, const std::string& name)
 std::optional<Image> read_tga(const std::vector<std::uint8_t>& bytes, const std::string& name) {
     const AVCodec* decoder = avcodec_find_decoder(AV_CODEC_ID_TARGA);
     if (!decoder) return std::nullopt;
-    const CodecPtr codec = codec_for(decoder);
+    const CodecPtr codec = codec_for(decoder, bytes.size());
     const PacketPtr packet(av_packet_alloc());
     if (!packet || av_new_packet(packet.get(), static_cast<int>(bytes.size())) < 0)
         throw std::bad_alloc();
@@ -159,7 +163,7 @@ Image read_picture(const std::vector<std::uint8_t>& bytes, const std::string& na
     const AVCodec* decoder = nullptr;
     const int index = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, &decoder, 0);
     if (index < 0 || !decoder) throw no_picture;
-    const CodecPtr codec = codec_for(decoder);
+    const CodecPtr codec = codec_for(decoder, bytes.size());
     const PacketPtr packet(av_packet_alloc());
     if (!packet) throw std::bad_alloc();
     if (avcodec_parameters_to_context(codec.get(), format->streams[index]->codecpar) < 0 ||
