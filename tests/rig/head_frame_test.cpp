@@ -24,8 +24,9 @@ std::map<std::string, Vec3> placed_atlas(double size, const Vec3& shift_m, doubl
     std::normal_distribution<double> normal(0.0, noise_m);
     std::map<std::string, Vec3> out;
     for (const AtlasLandmark& landmark : adult().rig.atlas.landmarks) {
-        const Vec3 jitter =
-            noise_m > 0 ? Vec3(normal(random), normal(random), normal(random)) : Vec3::Zero();
+        Vec3 jitter = Vec3::Zero();
+        // In an order that no compiler chooses
+        for (int k = 2; k >= 0 && noise_m > 0; --k) jitter[k] = normal(random);
         out[landmark.id] =
             (some_turn().transpose() * (size * landmark.position + jitter - shift_m)) / 0.01;
     }
