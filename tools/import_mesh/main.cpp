@@ -29,7 +29,8 @@ void set_limits(std::size_t file_bytes) {
     limit(RLIMIT_CPU, seconds, seconds + 1);
     limit(RLIMIT_CORE, 0, 0);
     limit(RLIMIT_FSIZE, 0, 0);
-#ifndef __SANITIZE_ADDRESS__  // which needs terabytes of addresses
+#if !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)  // they need terabytes of addresses
     limit(RLIMIT_AS, limits.memory_bytes, limits.memory_bytes);
 #endif
     std::set_new_handler([] { ::_exit(risorius::io::kOutOfMemory); });
