@@ -177,7 +177,8 @@ TEST(Outputs, AStopWhileAMeshIsImportedEndsTheImporterToo) {
         const Clock::time_point begin = Clock::now();
         ::kill(child, SIGINT);
         EXPECT_EQ(wait_for(child), 130) << bytes_of(folder / "errors");
-        EXPECT_LT(std::chrono::duration<double>(Clock::now() - begin).count(), 1);
+        // A second, and another one where other tests run beside it
+        EXPECT_LT(std::chrono::duration<double>(Clock::now() - begin).count(), 2);
         EXPECT_EQ(::kill(second, 0), -1) << "the importer still runs";
         fs::remove(folder / "errors");
         EXPECT_EQ(folder.listing(), before);
