@@ -37,7 +37,7 @@ TEST(Expressions, TakeTheTimesReportedForPeople) {
         EXPECT_LE(e.onset_s, onset.at(name).second) << name;
         EXPECT_GE(e.offset_s / e.onset_s, 1.3) << name;
         EXPECT_LE(e.offset_s / e.onset_s, 2.0) << name;
-        for (const ExpressionUnit& unit : e.units)
+        for (const ExpressionUnit& unit : e.parts.units)
             EXPECT_LE(unit.delay * e.onset_s, 0.2 + 1e-12) << name << " " << unit.use.unit;
     }
 }

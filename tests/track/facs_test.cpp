@@ -171,8 +171,8 @@ TEST(Facs, ArkitShapesOfTheTwoSidesMirrorEachOther) {
 
 TEST(Facs, ContemptIsOneSided) {
     const Expression& contempt = *tables().expressions.find("contempt");
-    ASSERT_EQ(contempt.units.size(), 2u);
-    for (const ExpressionUnit& part : contempt.units) EXPECT_EQ(part.use.side, Side::kRight);
+    ASSERT_EQ(contempt.parts.units.size(), 2u);
+    for (const ExpressionUnit& part : contempt.parts.units) EXPECT_EQ(part.use.side, Side::kRight);
 }
 
 TEST(Facs, BrokenTablesAreRefusedWithPlaceAndReason) {

@@ -289,7 +289,8 @@ RigDescription read_rig(const std::filesystem::path& file) {
     rig.facs = track::read_facs(table(json.at("facs")), rig.channels());
     for (track::ActionUnit& unit : rig.facs.units)
         unit.kinematic[static_cast<std::size_t>(track::Kinematic::kMouthPressure)] *= rig.lips.puff;
-    rig.expressions = track::read_expressions(table(json.at("expressions")), rig.facs);
+    rig.expressions =
+        track::read_expressions(table(json.at("expressions")), rig.facs, rig.channels());
     return rig;
 }
 

@@ -220,28 +220,62 @@ FacsTable read_facs(const JsonCursor& json, const ChannelTable& channels) {
     return facs;
 }
 
-Expressions read_expressions(const JsonCursor& json, const FacsTable& facs) {
+namespace {
+
+ExpressionParts read_parts(const JsonCursor& entry, const FacsTable& facs,
+                           const ChannelTable& channels) {
+    ExpressionParts parts;
+    const JsonCursor units = entry.at("units");
+    for (const std::string& unit : units.keys()) {
+        const JsonCursor part = units.at(unit);
+        part.allow_keys({"value", "delay"});
+        ExpressionUnit use{unit_named(part, unit, facs), 0};
+        use.use.value = part.at("value").number({0, 1});
+        // A delay as long as the onset would leave no time to move.
+        if (const auto delay = part.find("delay")) use.delay = delay->number({0, 0.9});
+        parts.units.push_back(std::move(use));
+    }
+    if (const auto muscles = entry.find("muscles"))
+        for (const std::string& name : muscles->keys()) {
+            MuscleFraction muscle = muscle_named(muscles->at(name), name, channels);
+            muscle.weight = muscles->at(name).number({0, 1});
+            parts.muscles.push_back(std::move(muscle));
+        }
+    return parts;
+}
+
+}  // namespace
+
+const ExpressionVariant* Expression::find_variant(const std::string& variant) const {
+    const auto found =
+        std::find_if(variants.begin(), variants.end(),
+                     [&](const ExpressionVariant& one) { return one.name == variant; });
+    return found == variants.end() ? nullptr : &*found;
+}
+
+Expressions read_expressions(const JsonCursor& json, const FacsTable& facs,
+                             const ChannelTable& channels) {
     json.allow_keys({"source", "expressions"});
     const JsonCursor table = json.at("expressions");
     Expressions expressions;
     for (const std::string& name : table.keys()) {
         const JsonCursor entry = table.at(name);
-        entry.allow_keys({"onset_s", "hold_s", "offset_s", "units"});
+        entry.allow_keys(
+            {"source", "onset_s", "hold_s", "offset_s", "units", "muscles", "variants"});
         Expression expression;
         expression.name = name;
         expression.onset_s = entry.at("onset_s").number({0, 60});
         expression.hold_s = entry.at("hold_s").number({0, 3600});
         expression.offset_s = entry.at("offset_s").number({0, 60});
-        const JsonCursor units = entry.at("units");
-        for (const std::string& unit : units.keys()) {
-            const JsonCursor part = units.at(unit);
-            part.allow_keys({"value", "delay"});
-            ExpressionUnit use{unit_named(part, unit, facs), 0};
-            use.use.value = part.at("value").number({0, 1});
-            // A delay as long as the onset would leave no time to move.
-            if (const auto delay = part.find("delay")) use.delay = delay->number({0, 0.9});
-            expression.units.push_back(std::move(use));
-        }
+        if (const auto source = entry.find("source")) expression.source = source->string();
+        expression.parts = read_parts(entry, facs, channels);
+        if (const auto variants = entry.find("variants"))
+            for (const std::string& variant : variants->keys()) {
+                const JsonCursor one = variants->at(variant);
+                one.allow_keys({"source", "units", "muscles"});
+                expression.variants.push_back(
+                    {variant, one.at("source").string(), read_parts(one, facs, channels)});
+            }
         expressions.list.push_back(std::move(expression));
     }
     return expressions;

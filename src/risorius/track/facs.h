@@ -88,13 +88,30 @@ struct ExpressionUnit {
     double delay = 0;
 };
 
+/// What an expression consists of at intensity 1.
+struct ExpressionParts {
+    std::vector<ExpressionUnit> units;
+    /// Muscles that contract more than the units ask for. They start with the first unit and have no FACS code of their own.
+    std::vector<MuscleFraction> muscles;
+};
+
+/// Another form of an expression, for instance the one that a study observed.
+struct ExpressionVariant {
+    std::string name;
+    std::string source;  ///< who published it
+    ExpressionParts parts;
+};
+
 /// An expression: a named set of units, with the usual durations of onset, hold and offset.
 struct Expression {
     std::string name;
+    std::string source;    ///< who published its units; empty in tables of older versions
     double onset_s = 0.5;  ///< usual durations, for scripts that give none
     double hold_s = 1.0;
     double offset_s = 0.8;
-    std::vector<ExpressionUnit> units;
+    ExpressionParts parts;
+    std::vector<ExpressionVariant> variants;
+    const ExpressionVariant* find_variant(const std::string& variant) const;  ///< null when unknown
 };
 
 struct Expressions {
@@ -102,8 +119,9 @@ struct Expressions {
     const Expression* find(const std::string& name) const;  ///< null when unknown
 };
 
-/// Reads expressions.json. Throws Error for unknown units and values outside their ranges.
-Expressions read_expressions(const JsonCursor& json, const FacsTable& facs);
+/// Reads expressions.json. Throws Error for unknown units and muscles, and for values outside their ranges.
+Expressions read_expressions(const JsonCursor& json, const FacsTable& facs,
+                             const ChannelTable& channels);
 
 /// What a source (muscle, action unit or shape) with value 1 adds to the drive.
 struct Expansion {
