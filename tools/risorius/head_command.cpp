@@ -37,7 +37,7 @@ void run(HeadArguments& arguments) {
 
 std::string listed(const std::vector<std::string>& names) {
     std::string text;
-    for (const std::string& name : names) text += " " + name;
+    for (const std::string& name : names) text += (text.empty() ? " " : ", ") + name;
     return text;
 }
 
@@ -50,8 +50,8 @@ std::string footer() {
                "\nShapes, in standard deviations from -2 to 2:" +
                listed(headmodel::shape_parameters(tables)) +
                "\nSkin:" + listed(headmodel::tone_names(tables, "skin")) +
-               "; iris:" + listed(headmodel::tone_names(tables, "iris")) +
-               "; hair:" + listed(headmodel::tone_names(tables, "hair")) + "\n";
+               "\nIris:" + listed(headmodel::tone_names(tables, "iris")) +
+               "\nHair:" + listed(headmodel::tone_names(tables, "hair")) + "\n";
     } catch (const Error& error) {
         text = std::string(error.what()) + "\n";
     }
@@ -75,11 +75,11 @@ void add_head(CLI::App& app) {
                         "-1: female, 1: male. Default: that of the identity, or else 0");
     command->add_option("--age", choice.age, "Age, 20 to 80 years");
     command->add_option("--shape", choice.shape,
-                        "PARAMETER=NUMBER, -2 to 2; repeat for several. docs/formats/identity.md "
-                        "lists the parameters");
-    command->add_option("--skin", choice.skin, "Name of a skin tone");
-    command->add_option("--iris", choice.iris, "Name of an eye colour");
-    command->add_option("--hair", choice.hair, "Name of a colour of brows and hair");
+                        "PARAMETER=NUMBER, -2 to 2; repeat for several. The parameters are listed "
+                        "below");
+    command->add_option("--skin", choice.skin, "Tone of the skin; the names are below");
+    command->add_option("--iris", choice.iris, "Colour of the eyes; the names are below");
+    command->add_option("--hair", choice.hair, "Colour of brows and hair; the names are below");
     command
         ->add_option("--texture", arguments->options.texture_px,
                      "Also write textures for other programs: skin.png with this width and height "

@@ -41,7 +41,8 @@ void add_flags(const CLI::App& command, std::vector<Flag>& flags) {
         flag.positional = option->get_positional();
         for (const std::string& name : option->get_snames()) flag.shorts += "-" + name;
         for (const std::string& name : option->get_lnames()) flag.longs += "--" + name;
-        if (flag.positional) flag.longs = option->get_name();
+        if (flag.positional)
+            flag.longs = option->get_name() + (option->get_expected_max() > 1 ? " ..." : "");
         flag.value = flag.positional ? "" : value_of(*option);
         flag.fallback = option->get_default_str();
         flag.description = option->get_description();
@@ -70,21 +71,27 @@ std::string usage_of(const CLI::App& command) {
     std::string usage = "risorius " + command.get_name();
     for (const Flag& flag : flags_of(command))
         if (flag.positional)
-            usage += flag.required ? " " + flag.longs : " [" + flag.longs + "]";
+            usage += flag.required ? " " + flag.names() : " [" + flag.names() + "]";
         else if (flag.required)
             usage += " " + (flag.shorts.empty() ? flag.longs : flag.shorts) + " " + flag.value;
     return usage + " [OPTIONS]";
 }
 
-/// The lines of a footer that are commands.
-std::vector<std::string> examples_of(const CLI::App& command) {
-    std::vector<std::string> examples;
-    std::istringstream footer(command.get_footer());
-    for (std::string line; std::getline(footer, line);)
-        if (const std::size_t begin = line.find_first_not_of(' ');
-            begin != std::string::npos && line.compare(begin, 9, "risorius ") == 0)
-            examples.push_back(line.substr(begin));
-    return examples;
+/// The text below the options in the help of a command.
+struct Footer {
+    std::vector<std::string> notes, examples;  ///< lines
+};
+
+Footer footer_of(const CLI::App& command) {
+    Footer footer;
+    std::istringstream text(command.get_footer());
+    for (std::string line; std::getline(text, line);) {
+        const std::size_t begin = line.find_first_not_of(' ');
+        if (begin == std::string::npos || line == "Example:" || line == "Examples:") continue;
+        const bool is_command = line.compare(begin, 9, "risorius ") == 0;
+        (is_command ? footer.examples : footer.notes).push_back(line.substr(begin));
+    }
+    return footer;
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
@@ -157,12 +164,13 @@ std::string markdown_pages(const CLI::App& app) {
             }
             page += "| `" + flag.names() + (flag.value.empty() ? "" : " " + in_table(flag.value)) +
                     "` | " + in_table(flag.description) + (flag.required ? ". Required" : "") +
-                    (flag.fallback.empty() ? "" : ". Default: `" + flag.fallback + "`") + " |\n";
+                    (flag.fallback.empty() ? "" : ". Default: " + in_table(flag.fallback)) + " |\n";
         }
-        const std::vector<std::string> examples = examples_of(*command);
-        if (!examples.empty()) {
+        const Footer footer = footer_of(*command);
+        for (const std::string& note : footer.notes) page += "\n" + note + "\n";
+        if (!footer.examples.empty()) {
             page += "\n```text\n";
-            for (const std::string& example : examples) page += example + "\n";
+            for (const std::string& example : footer.examples) page += example + "\n";
             page += "```\n";
         }
     }
@@ -201,10 +209,12 @@ std::string man_page(const CLI::App& app, const CLI::App* command) {
                 troff(flag.description) + (flag.required ? ". Required" : "") +
                 (flag.fallback.empty() ? "" : ". Default: " + troff(flag.fallback)) + "\n";
     }
-    const std::vector<std::string> examples = examples_of(*command);
-    if (!examples.empty()) {
+    const Footer footer = footer_of(*command);
+    if (!footer.notes.empty()) page += ".SH NOTES\n";
+    for (const std::string& note : footer.notes) page += ".PP\n" + troff(note) + "\n";
+    if (!footer.examples.empty()) {
         page += ".SH EXAMPLES\n.nf\n";
-        for (const std::string& example : examples) page += troff(example) + "\n";
+        for (const std::string& example : footer.examples) page += troff(example) + "\n";
         page += ".fi\n";
     }
     return page + ".SH SEE ALSO\n.BR risorius (1)\n";

@@ -23,8 +23,8 @@ void add_coding(CLI::App& command, animate::RenderRequest& options) {
     media::VideoOptions& video = options.video;
     command
         .add_option("--crf", video.crf,
-                    "Constant rate factor, lower is better: 0 to 51 for H.264 (default 18), 0 to "
-                    "63 for VP9 (default 24)")
+                    "Constant rate factor, lower is better: 0 to 51 for H.264 (default: 18), 0 to "
+                    "63 for VP9 (default: 24)")
         ->type_name("INT")
         ->group(kCoding);
     command
