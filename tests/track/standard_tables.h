@@ -38,7 +38,7 @@ struct StandardTables {
                                                muscle.has("tonic_rest_activation") ? -1.0 : 0.0});
         tables.facs = read_facs(JsonCursor::read_file(folder / "facs.json"), tables.channels);
         tables.expressions =
-            read_expressions(JsonCursor::read_file(folder / "expressions.json"), tables.facs);
+            read_expressions(JsonCursor::read_file(folder / "expressions.json"), tables.facs, tables.channels);
         return tables;
     }
 };
