@@ -9,7 +9,7 @@
 set -euo pipefail
 
 # Quick to build and to run under sanitizers, and where raw indices, parsers and C libraries are.
-sanitized=(core geom signal track muscle solve tissue contact design plot io media)
+sanitized=(core geom signal track muscle solve tissue contact design plot io media fuzz)
 
 case ${1:-} in
     '') sanitizers=some ;;

@@ -372,7 +372,8 @@ TEST(ClipWord, HasLettersAndDigitsOnly) {
     EXPECT_EQ(clip_word("-3.5"), "m3p5");
     EXPECT_EQ(clip_word("../etc/passwd"), "etcPasswd");
     EXPECT_EQ(clip_word("happy face 2"), "happyFace2");
-    EXPECT_EQ(clip_word("über"), "ber");
+    EXPECT_EQ(clip_word("über"), "uber");
+    EXPECT_EQ(clip_word("x_顔"), "xu9854");
 }
 
 TEST(FrameOrder, IsThatOfTheControl) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "message_of.h"
 #include "paths.h"
 #include "risorius/core/error.h"
 
@@ -113,6 +114,17 @@ TEST(ImplicitSteps, ManyThreadsFindTheSame) {
     for (std::size_t i = 0; i < one.figure.tables.size(); ++i)
         EXPECT_EQ(one.figure.tables[i].rows, two.figure.tables[i].rows);
     EXPECT_EQ(one.figure.shapes[1].positions, two.figure.shapes[1].positions);
+}
+
+TEST(ImplicitSteps, ABodyThatIsNoObjectIsNamed) {
+    Json experiment = table_of_the_thesis();
+    experiment["body"] = {1, 2};
+    EXPECT_EQ(message_of([&] {
+                  Outcome outcome;
+                  run_implicit_steps(JsonCursor::from_json(experiment, "table"), {.threads = 1},
+                                     outcome);
+              }),
+              "table:/body: expected an object, found [1,2]");
 }
 
 }  // namespace

@@ -86,6 +86,14 @@ TEST(Weld, UnusedVerticesAreLeftOutAndCollapsedTrianglesDropped) {
     EXPECT_EQ(welded.source_triangle, (std::vector<int>{0}));
 }
 
+TEST(Weld, CoordinatesMayBeOfAnySize) {
+    Points p(6, 3);
+    p << 0, 0, 0, 1e90, 0, 0, 0, 1e90, 0, 0, 0, 0, 1e90, 0, 0, 0, -1e90, 0;
+    Triangles tri(2, 3);
+    tri << 0, 1, 2, 4, 3, 5;
+    EXPECT_EQ(weld(p, tri).welded_of_vertex, (std::vector<int>{0, 1, 2, 0, 1, 3}));
+}
+
 TEST(Weld, SpreadMovesBothSidesOfASeamTogether) {
     const auto soup = unrolled(testing::square_grid(3));
     const WeldedSurface welded = weld(soup.positions, soup.triangles);

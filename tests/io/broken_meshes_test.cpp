@@ -62,7 +62,7 @@ TEST_F(BrokenMeshes, NoneIsWithoutAnExpectation) {
 
 TEST_F(BrokenMeshes, AMissingFileAndAFolderAreNamed) {
     EXPECT_EQ(complaint("nobody.obj"), "nobody.obj: expected a mesh file, found no such file");
-    EXPECT_EQ(complaint("."), ".: expected a mesh file, found a folder or device");
+    EXPECT_EQ(complaint("."), ".: expected a mesh file, found a folder");
 }
 
 TEST_F(BrokenMeshes, AUnitMustBePositive) {

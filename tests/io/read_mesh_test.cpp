@@ -171,8 +171,10 @@ TEST(ReadObj, AFaceMayComeBeforeItsVertices) {
 
 TEST(ReadObj, NamesTheLineOfAMistake) {
     EXPECT_EQ(complaint("v 0 0\n"), "text.obj:1: expected three coordinates after \"v\", found 2");
-    EXPECT_EQ(complaint(kSquare + "f 1 2\n"),
-              "text.obj:5: expected a face of at least three corners, found 2");
+    EXPECT_EQ(complaint(kSquare + "f 1\n"),
+              "text.obj:5: expected a face of at least three corners, found 1");
+    EXPECT_EQ(complaint("v 0,5 0 0\n"),
+              "text.obj:1: expected a number with a point before its decimals, found \"0,5\"");
     EXPECT_EQ(complaint(kSquare + "f 1 2 x\n"),
               "text.obj:5: expected a face corner v, v/vt, v//vn or v/vt/vn, found \"x\"");
     EXPECT_EQ(complaint(kSquare + "f 1 2 -5\n"),
@@ -181,6 +183,45 @@ TEST(ReadObj, NamesTheLineOfAMistake) {
               "text.obj:5: expected a texture coordinate index of at most 0, found 1");
     EXPECT_EQ(complaint("v 0 0 1e999\n"),
               "text.obj:1: expected a number that a double can hold, found \"1e999\"");
+}
+
+TEST(ReadObj, ACommentEndsWithItsLine) {
+    // A backslash at its end does not swallow the vertex after it.
+    const geom::PolygonMesh mesh =
+        read_text("# from C:\\scans\\\n" + kSquare + "f 1 2 3 4 # C:\\\n");
+    EXPECT_EQ(mesh.vertex_count(), 4);
+    EXPECT_EQ(mesh.corner_vertex, (std::vector<int>{0, 1, 2, 3}));
+    EXPECT_EQ(read_text(kSquare + "g a #1\nf 1 2 3\n").group_names[0], "a #1");
+}
+
+TEST(ReadObj, LinesMayEndInAnyWay) {
+    for (const std::string end : {"\n", "\r", "\r\n"}) {
+        std::string text = kSquare + "f 1 2 \\\n3 4\n";
+        for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += end.size())
+            text.replace(at, 1, end);
+        EXPECT_EQ(read_text(text).corner_vertex, (std::vector<int>{0, 1, 2, 3})) << text;
+    }
+}
+
+TEST(ReadObj, AFaceOfTwoCornersIsAnEdgeAndIsLeftOutWithANote) {
+    const geom::PolygonMesh mesh = read_text(kSquare + "f 1 2\nf 1 2 3\nf 3 4\n");
+    EXPECT_EQ(mesh.face_count(), 1);
+    EXPECT_EQ(mesh.corner_vertex, (std::vector<int>{0, 1, 2}));
+    ASSERT_EQ(mesh.notes.size(), 1u);
+    EXPECT_EQ(mesh.notes[0], "text.obj:5: 2 faces of two corners are edges, left out");
+}
+
+TEST(ReadObj, SignsOfPlusAreNumbersToo) {
+    EXPECT_EQ(read_text("v +0 0 0\nv +1e0 0 0\nv 1 +1 0\nf +1 +2 +3\n").corner_vertex,
+              (std::vector<int>{0, 1, 2}));
+}
+
+TEST(ReadObj, ALibraryNamedOftenIsReadOnce) {
+    std::string text;
+    for (int i = 0; i < 50000; ++i) text += "mtllib a.mtl\n";
+    detail::ObjMaterials materials;
+    detail::read_obj(text + kSquare + "f 1 2 3\n", "text.obj", &materials);
+    EXPECT_EQ(materials.libraries, (std::vector<std::string>{"a.mtl"}));
 }
 
 }  // namespace

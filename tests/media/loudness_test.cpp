@@ -54,9 +54,17 @@ TEST(Loudness, FindsThePeakBetweenTheSamples) {
     EXPECT_GT(peak, -6 - 0.4);
 }
 
-TEST(Loudness, GrowsWithTheGain) {
-    const Sound sound = tones({{-30, 20}});
-    EXPECT_NEAR(loudness_of(amplified(sound, 7)).integrated_lufs, lufs({{-30, 20}}) + 7, 1e-4);
+TEST(Loudness, OfAFileGrowsWithTheGain) {
+    const TemporaryFolder folder;
+    Sound sound = tones({{-30, 20}});
+    sound.bits = 32;
+    write_wav(sound, folder / "a.wav");
+    Recording recording = open_recording(folder / "a.wav");
+    EXPECT_EQ(loudness_of(recording, 0, recording.length()).integrated_lufs,
+              loudness_of(sound).integrated_lufs);
+    recording.gain_db = 7;
+    EXPECT_NEAR(loudness_of(recording, 0, recording.length()).integrated_lufs,
+                lufs({{-30, 20}}) + 7, 1e-4);
 }
 
 TEST(Loudness, OfSilenceIsNone) {
@@ -73,7 +81,7 @@ TEST(WavFile, ReadsBackWhatWasWritten) {
         sound.channels = 3;
         sound.samples = {0, -1, 0.5f, 1 / 32768.0f, -0.25f, 0.75f, 0.125f, 0, 0};
         write_wav(sound, folder / "a.wav");
-        const Sound back = read_recording(folder / "a.wav");
+        const Sound back = read_sound(folder / "a.wav");
         EXPECT_EQ(back.samples, sound.samples) << bits;
         EXPECT_EQ(back.bits, bits);
         EXPECT_EQ(back.rate_hz, 22050);
@@ -81,16 +89,22 @@ TEST(WavFile, ReadsBackWhatWasWritten) {
     Sound loud;
     loud.samples = {2, -2};
     write_wav(loud, folder / "a.wav");
-    EXPECT_EQ(read_recording(folder / "a.wav").samples, (std::vector<float>{32767 / 32768.0f, -1}));
+    EXPECT_EQ(read_sound(folder / "a.wav").samples, (std::vector<float>{32767 / 32768.0f, -1}));
 }
 
 TEST(Heard, IsWhatLiesWithinTheVideo) {
+    const TemporaryFolder folder;
     Sound sound;
     sound.rate_hz = 8000;
+    sound.bits = 32;
     sound.samples = {1, 2, 3, 4};
-    EXPECT_EQ(heard(sound, 2, 5).samples, (std::vector<float>{0, 0, 1, 2, 3}));
-    EXPECT_EQ(heard(sound, -3, 3).samples, (std::vector<float>{4, 0, 0}));
-    EXPECT_EQ(heard(sound, 9, 2).samples, (std::vector<float>{0, 0}));
+    write_wav(sound, folder / "a.wav");
+    const Recording recording = open_recording(folder / "a.wav");
+    EXPECT_EQ(part_of(recording, 2, 5).samples, (std::vector<float>{0, 0, 1, 2, 3}));
+    EXPECT_EQ(part_of(recording, -3, 3).samples, (std::vector<float>{4, 0, 0}));
+    EXPECT_EQ(part_of(recording, 9, 2).samples, (std::vector<float>{0, 0}));
+    EXPECT_EQ(part_of(recording, -9, 2).samples, (std::vector<float>{0, 0}));
+    EXPECT_EQ(part_of(recording, -1, 9000).length(), 9000);
 }
 
 }  // namespace

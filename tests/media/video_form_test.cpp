@@ -231,7 +231,7 @@ TEST(VideoForm, RefusesWhatAFormDoesNotHave) {
               "size), found 65 x 48");
     EXPECT_EQ(refusal("a.mp4", {.width_px = 65, .height_px = 49, .pixels = "yuv444p"}), "no error");
     EXPECT_EQ(refusal("a.mkv", {.lossless = true}), "no error");
-    const auto sound = std::make_shared<Sound>();
+    const auto sound = std::make_shared<Recording>();
     sound->channels = 6;
     EXPECT_EQ(refusal("a.mp4", {.sound = sound}),
               "a.mp4: expected a number of sound channels in [1, 2], found 6");

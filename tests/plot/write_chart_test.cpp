@@ -295,8 +295,9 @@ TEST(WriteChart, AGnuplotThatFailsIsQuoted) {
 
 TEST(WriteChart, AFolderThatCannotBeWrittenIsNamed) {
     const TemporaryFolder folder;
+    std::ofstream(folder / "none") << "a file";
     EXPECT_EQ(message_of([&] { write_chart(volume_chart(), folder / "none"); }),
-              (folder / "none/volume.data.csv").string() + ": cannot be written");
+              (folder / "none").string() + ": expected a folder, found a file");
 }
 
 }  // namespace

@@ -105,5 +105,18 @@ TEST(CheckFiles, AFileMayNameItsSchema) {
     EXPECT_EQ(check_file(folder / "script.json").error, "");
 }
 
+TEST(CheckFiles, FindsWhatRenderWouldRefuse) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "room.hdr", std::ios::binary)
+        << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n";
+    Json script = JsonCursor::read_file(kRoot / "samples/smile/script.json").json();
+    script["rig"] = (kRoot / "rigs/adult/rig.json").string();
+    script["view"]["light"] = {{"file", "room.hdr"}};
+    std::ofstream(folder / "script.json") << script.dump();
+    EXPECT_EQ(check_file(folder / "script.json").error,
+              (folder / "room.hdr").string() +
+                  ": expected pixels of the whole picture, found the end of the file");
+}
+
 }  // namespace
 }  // namespace risorius::cli

@@ -97,9 +97,8 @@ TEST(AtomicFolder, AFileThatCameMeanwhileIsKeptToo) {
 TEST(AtomicFolder, APlaceThatCannotBeIsNamed) {
     const TemporaryFolder folder;
     write(folder / "file", "");
-    EXPECT_EQ(refusal(folder / "file/out"), (folder / "file/out").string() +
-                                                ": expected a folder that can be written, found "
-                                                "Not a directory");
+    EXPECT_EQ(refusal(folder / "file/out"),
+              (folder / "file").string() + ": expected a folder, found a file");
 }
 
 TEST(AtomicFolder, TwoStagedAtOnceForDifferentPlacesDoNotMeet) {

@@ -99,7 +99,7 @@ TEST_F(Experiment, GoesOnAfterAKillWhereItWas) {
 
 TEST_F(Experiment, SoundIsAsLoudAsAskedForInTableClipAndFile) {
     const fs::path stimuli = *folder / "set/stimuli";
-    const media::Sound alone = media::read_recording(stimuli / "stim-fear_audio.wav");
+    const media::Sound alone = media::read_sound(stimuli / "stim-fear_audio.wav");
     EXPECT_EQ(alone.length(), 9600);
     EXPECT_EQ(alone.samples[1599], 0);
     EXPECT_NE(alone.samples[1601], 0);

@@ -11,6 +11,7 @@
 #include "message_of.h"
 #include "risorius/io/read_mesh.h"
 #include "risorius/media/image_file.h"
+#include "risorius/scene/scene_from_rig.h"
 
 namespace risorius::scene {
 namespace {
@@ -56,10 +57,48 @@ TEST(Textures, APictureThatIsNotThereIsReportedWhereItIsNamed) {
                   (folder() / "lost.png").string() + ", found no such file");
 }
 
-TEST(Textures, APictureThatIsMovedOverTheSurfaceIsRefused) {
-    EXPECT_EQ(message_of([] { square_with("newmtl painted\nmap_Kd -o 0.5 0 a.png\n"); }),
-              (folder() / "square.mtl").string() +
-                  ":2: expected a picture over the texture coordinates as they are, found \"-o\"");
+TEST(Textures, APictureThatIsMovedOverTheSurfaceIsLeftOutWithANote) {
+    const geom::PolygonMesh mesh = square_with("newmtl painted\nmap_Kd -o 0.5 0 a.png\n");
+    EXPECT_TRUE(mesh.textures.empty());
+    EXPECT_EQ(mesh.notes,
+              (std::vector<std::string>{(folder() / "square.mtl").string() +
+                                        ":2: the picture is left out, because \"-o\" moves it over "
+                                        "the texture coordinates"}));
+    // These move nothing.
+    const geom::PolygonMesh still =
+        square_with("newmtl painted\nmap_Kd -o 0 0 0 -s 1 1 1 -t 0 0 0 a.png\n");
+    EXPECT_TRUE(still.notes.empty());
+    EXPECT_EQ(still.textures.at(0).file, folder() / "a.png");
+}
+
+TEST(Textures, APictureOfAnotherComputerIsFoundBesideItsLibrary) {
+    media::write_png(Image(2, 2), folder() / "Skin Of Anna.png");
+    for (const std::string name : {"C:\\scans\\anna\\Skin Of Anna.png", "skin of anna.PNG",
+                                   "pictures/of/anna/skin of anna.png"})
+        EXPECT_EQ(square_with("newmtl painted\nmap_Kd " + name + "\n").textures.at(0).file,
+                  folder() / "Skin Of Anna.png")
+            << name;
+}
+
+TEST(Textures, ATgaIsRead) {
+    std::string bytes(18, '\0');
+    bytes[2] = 2;
+    bytes[12] = bytes[14] = 1;
+    bytes[16] = 24;
+    std::ofstream(folder() / "green.tga", std::ios::binary)
+        << bytes << std::string("\x10\xc0\x20", 3);
+    EXPECT_EQ(read_texture({folder() / "green.tga", "here", {}}).rgba,
+              (std::vector<std::uint8_t>{0x20, 0xc0, 0x10, 255}));
+}
+
+TEST(Textures, WhatCannotBeReadIsToldForEachPicture) {
+    const geom::PolygonMesh mesh = square_with("newmtl painted\nmap_Kd lost.png\n");
+    EXPECT_EQ(
+        picture_problems(mesh),
+        (std::vector<std::string>{(folder() / "square.mtl").string() + ":2: expected the picture " +
+                                  (folder() / "lost.png").string() +
+                                  ", found no such file; what it would colour has the colours "
+                                  "of the look"}));
 }
 
 TEST(Textures, AFileThatIsNoPictureIsRefused) {

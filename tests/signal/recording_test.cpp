@@ -57,7 +57,57 @@ TEST_F(RecordingFile, TablesThatAreNoneAreRefused) {
     EXPECT_EQ(message_of([] { recorded("\n# nothing\n"); }),
               "recording_test.csv: expected a line with the names of the columns, found none");
     EXPECT_EQ(message_of([] { Recording::read_file("no_such.csv"); }),
-              "no_such.csv: expected a readable file, found none");
+              "no_such.csv: expected a recording, found no such file");
+}
+
+TEST_F(RecordingFile, LinesEndAsAnySystemEndsThemAndQuotedCellsHoldSeparators) {
+    for (const std::string end : {"\n", "\r\n", "\r"}) {
+        const Recording r = recorded("\"a;b\";c" + end + "1;\"2\"" + end + "+3;+4.5e+00" + end);
+        ASSERT_EQ(r.columns(), (std::vector<std::string>{"a;b", "c"}));
+        EXPECT_EQ(r.samples(0), (std::vector<double>{1, 3}));
+        EXPECT_EQ(r.samples(1), (std::vector<double>{2, 4.5}));
+    }
+    EXPECT_EQ(recorded("a,b\n\"x\"\"y\",1\n").sample_count(), 1u);
+    EXPECT_EQ(message_of([] { recorded("a\n\"1\n"); }),
+              "recording_test.csv:2: expected a closing quote, found the end of the line");
+    EXPECT_EQ(message_of([] { recorded(std::string("\xFF\xFE\x61\0", 4)); }),
+              "recording_test.csv: expected text in UTF-8, found text in UTF-16");
+}
+
+TEST_F(RecordingFile, DecimalCommasAreNamed) {
+    EXPECT_EQ(message_of([] { recorded("a;b\n1;2,5\n").samples(1); }),
+              "recording_test.csv:2:b: expected a number with a decimal point, found \"2,5\"");
+    EXPECT_EQ(message_of([] { recorded("a,b\n0,1,2,5\n"); }),
+              "recording_test.csv:2: expected 2 cells, found 4; a comma separates cells, so that "
+              "numbers need a decimal point");
+}
+
+TEST_F(RecordingFile, ReadErrorsAreNotTheEndOfTheFile) {
+    EXPECT_EQ(message_of([] { Recording::read_file("/proc/self/mem"); }),
+              "/proc/self/mem: expected a recording, found one that cannot be read (Input/output "
+              "error)");
+    EXPECT_EQ(message_of([] { Recording::read_file("/dev/zero"); }),
+              "/dev/zero: expected a recording, found a device or socket");
+}
+
+TEST_F(RecordingFile, ShortGapsAreBridgedAndLongOnesNamed) {
+    const Recording r = recorded("t,a\n0,n/a\n0.01,1\n0.02,NaN\n0.03,\n0.04,4\n0.05,NA\n");
+    const Recording::Bridged bridged = r.bridged_samples(1, r.samples(0));
+    ASSERT_EQ(bridged.samples.size(), 6u);
+    for (const auto& [i, expected] :
+         {std::pair{0, 1.0}, {1, 1.0}, {2, 2.0}, {3, 3.0}, {4, 4.0}, {5, 4.0}})
+        EXPECT_NEAR(bridged.samples[static_cast<std::size_t>(i)], expected, 1e-12) << i;
+    EXPECT_EQ(bridged.notes,
+              std::vector<std::string>{
+                  "recording_test.csv: 4 values of \"a\" are missing and bridged, at "
+                  "most 0.02 s in a row"});
+    const Recording lost = recorded("t,a\n0,1\n0.1,n/a\n0.2,n/a\n0.3,1\n");
+    EXPECT_EQ(message_of([&] { lost.bridged_samples(1, lost.samples(0)); }),
+              "recording_test.csv:3:a: expected gaps of at most 0.1 s, found one of 0.2 s, 2 rows");
+    const Recording none = recorded("t,a\n0,n/a\n0.01,n/a\n");
+    EXPECT_EQ(message_of([&] { none.bridged_samples(1, none.samples(0)); }),
+              "recording_test.csv:2:a: expected a number in some row, found none");
+    EXPECT_TRUE(recorded("t,a\n0,1\n1,2\n").bridged_samples(1, {0, 1}).notes.empty());
 }
 
 TEST_F(RecordingFile, RateComesFromTimesAndGapsAreNamed) {

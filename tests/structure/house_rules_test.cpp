@@ -185,6 +185,17 @@ TEST(HouseRules, NoFunctionIsLongerThanAHundredLines) {
     EXPECT_GT(functions, 1000);
 }
 
+// core/output_set.h says why.
+TEST(HouseRules, OnlyCoreWritesFiles) {
+    const std::regex writes("std::ofstream|\\brename\\(|O_CREAT");
+    for (const char* folder : {"src/risorius", "tools/risorius"})
+        for (const auto& file : files_below(folder, kSources)) {
+            if (shown(file).starts_with("src/risorius/core/")) continue;
+            for (const std::string& line : lines_of(text_of(file)))
+                EXPECT_FALSE(std::regex_search(line, writes)) << shown(file) << ": " << line;
+        }
+}
+
 TEST(HouseRules, SourcesAreLaidOutByClangFormat) {
     // Versions differ in details; the layout is that of Debian 12's.
     const auto [status, version] = run("clang-format --version");

@@ -115,6 +115,49 @@ TEST_F(EmgSource, EnvelopesAreTakenAsTheyAreAndSourcesAddUp) {
     EXPECT_DOUBLE_EQ(excitation(timeline, "frontalis_medial", Side::kLeft, 1), 1);
 }
 
+TEST_F(EmgSource, AClockThatLiesOutsideOfTheScriptIsNamedAndCanBeginAtItsFirstRow) {
+    std::vector<double> time, a;
+    for (int i = 0; i < 500; ++i) {
+        time.push_back(5000 + 0.01 * i);
+        a.push_back(i < 100 ? 0 : 1);
+    }
+    write("t,a", {time, a});
+    const std::string rest = R"("envelope": true, "channels": {"zygomaticus_major": "a"})";
+    EXPECT_EQ(
+        refusal_of(R"({"file": "emg_test.csv", "time_column": "t", )" + rest + "}"),
+        "script.json:/emg: expected a recording with samples in the script, which lasts from 0 "
+        "to 3 s, found emg_test.csv from 5000 s to 5004.99 s; \"time_origin\": \"first_row\" "
+        "lets its first row be at 0 s");
+    const ScriptDescription script = script_of(
+        R"("emg": {"file": "emg_test.csv", "time_column": "t", "time_origin": "first_row", )" +
+        rest + "}");
+    EXPECT_EQ(script.notes,
+              std::vector<std::string>{"emg_test.csv: lasts until 4.99 s, after the end "
+                                       "of the script at 3 s"});
+    const Timeline timeline(script, channels());
+    EXPECT_EQ(excitation(timeline, "zygomaticus_major", Side::kLeft, 0.5), 0);
+    EXPECT_EQ(excitation(timeline, "zygomaticus_major", Side::kLeft, 2), 1);
+    EXPECT_EQ(
+        refusal_of(R"({"file": "emg_test.csv", "rate_hz": 100, "time_origin": "first_row", )" +
+                   rest + "}"),
+        "script.json:/emg/time_origin: expected no such key beside \"rate_hz\", found "
+        "\"first_row\"");
+}
+
+TEST_F(EmgSource, ValuesThatAreMissingForAMomentAreBridgedWithANote) {
+    std::ofstream out("emg_test.csv");
+    out << "a\n";
+    for (int i = 0; i < 300; ++i) out << (i == 150 || i == 151 ? "n/a" : "+1.5e+00") << "\n";
+    out.close();
+    const ScriptDescription script = script_of(
+        R"("emg": {"file": "emg_test.csv", "rate_hz": 100, "envelope": true,
+                   "channels": {"zygomaticus_major": "a"}})");
+    EXPECT_EQ(script.notes, std::vector<std::string>{
+                                "emg_test.csv: 2 values of \"a\" are missing and bridged, at "
+                                "most 0.02 s in a row"});
+    EXPECT_EQ(excitation(Timeline(script, channels()), "zygomaticus_major", Side::kLeft, 1.505), 1);
+}
+
 TEST_F(EmgSource, RestIsTakenOff) {
     std::vector<double> a(400, 0.2);
     for (std::size_t i = 200; i < 400; ++i) a[i] = 1.2;

@@ -6,13 +6,14 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <thread>
 
 #include "risorius/animate/animate.h"
 #include "risorius/core/data_folder.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/text_lines.h"
 #include "risorius/core/version.h"
 #include "risorius/face/diagnostics.h"
 #include "risorius/face/solver/stress.h"
@@ -39,7 +40,7 @@ constexpr double kTrack_s = 4.0;
 Json bench_script(const std::string& rig, double duration_s) {
     return Json::parse(R"({
         "format": "risorius-script", "version": 1, "rig": ")" +
-                       Json(rig).dump().substr(1, Json(rig).dump().size() - 2) + R"(",
+                       json_text(rig).substr(1, json_text(rig).size() - 2) + R"(",
         "fps": 60, "duration_s": )" +
                        format_number(duration_s) + R"(, "seed": 1,
         "channels": {
@@ -59,10 +60,13 @@ Json bench_script(const std::string& rig, double duration_s) {
 
 Json describe_machine() {
     std::string cpu = "unknown";
-    std::ifstream info("/proc/cpuinfo");
-    for (std::string line; std::getline(info, line);)
-        if (line.starts_with("model name")) {
-            cpu = line.substr(line.find(':') + 2);
+    const std::filesystem::path file = "/proc/cpuinfo";
+    const std::string info =
+        std::filesystem::exists(file) ? read_file(file, {"a list of processors", kMegabyte}) : "";
+    for (TextLines lines(info); lines.next();)
+        if (lines.line().starts_with("model name")) {
+            const std::size_t colon = lines.line().find(": ");
+            if (colon != std::string_view::npos) cpu = lines.line().substr(colon + 2);
             break;
         }
     return {{"cpu", cpu}, {"cores", std::thread::hardware_concurrency()}};
@@ -174,7 +178,7 @@ struct Bench {
         animate::RenderRequest request;
         request.script = scratch / "script.json";
         report::write_text(request.script,
-                           bench_script(fs::absolute(files.file).generic_string(), 1.0).dump());
+                           json_text(bench_script(fs::absolute(files.file).generic_string(), 1.0)));
         request.out = scratch / "video.mp4";
         request.threads = static_cast<int>(std::max(2u, std::thread::hardware_concurrency()));
         ProgressMonitor inner = monitor;

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "risorius/core/json_cursor.h"
+#include "risorius/core/json_text.h"
 #include "risorius/report/atomic_file.h"
 
 namespace risorius::calibrate {
@@ -26,11 +26,11 @@ std::string line_of(const Json& value) {
         std::snprintf(text, sizeof text, "%.9g", value.get<double>() + 0.0);
         return text;
     }
-    if (!value.is_structured()) return value.dump();
+    if (!value.is_structured()) return json_text(value);
     std::string out;
     for (const auto& [key, one] : value.items()) {
         if (!out.empty()) out += ", ";
-        if (value.is_object()) out += Json(key).dump() + ": ";
+        if (value.is_object()) out += json_text(Json(key)) + ": ";
         out += line_of(one);
     }
     return value.is_object() ? "{" + out + "}" : "[" + out + "]";
@@ -43,7 +43,7 @@ std::string text_of(const Json& value, int depth, const std::string& indent = ""
     std::size_t left = value.size();
     for (const auto& [key, one] : value.items()) {
         out += indent + "  ";
-        if (value.is_object()) out += Json(key).dump() + ": ";
+        if (value.is_object()) out += json_text(Json(key)) + ": ";
         out += text_of(one, depth - 1, indent + "  ");
         out += --left > 0 ? ",\n" : "\n";
     }

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/stimuli/batch.h"
 #include "risorius/stimuli/slurm.h"
@@ -64,14 +65,14 @@ void print_plan(const BatchArguments& arguments) {
         Json parts = Json::array();
         for (const auto& [set, balance] : plan.balances)
             parts.push_back(balance_json(set, balance));
-        std::printf("%s\n", Json{{"name", plan.name},
-                                 {"parts_of_crossings", parts},
-                                 {"clips", clips},
-                                 {"notes", plan.notes},
-                                 {"frames", frames},
-                                 {"seconds_about", plan.seconds()},
-                                 {"megabytes_about", plan.megabytes()}}
-                                .dump(2)
+        std::printf("%s\n", json_text(Json{{"name", plan.name},
+                                           {"parts_of_crossings", parts},
+                                           {"clips", clips},
+                                           {"notes", plan.notes},
+                                           {"frames", frames},
+                                           {"seconds_about", plan.seconds()},
+                                           {"megabytes_about", plan.megabytes()}},
+                                      2)
                                 .c_str());
     } else {
         std::printf("%s: %zu clips, %ld frames, about %s on two cores and %.*f MB\n",
@@ -125,7 +126,7 @@ void run(BatchArguments& arguments) {
                                  const std::string& why) {
             Json event{{"event", state}, {"stim_id", clip}};
             if (!why.empty()) event["why"] = why;
-            std::printf("%s\n", event.dump().c_str());
+            std::printf("%s\n", json_text(event).c_str());
             std::fflush(stdout);
         };
     stimuli::BatchReport report;
@@ -136,7 +137,7 @@ void run(BatchArguments& arguments) {
                      : stimuli::make_batch(options, bar.monitor());
     }
     if (arguments.common.json) {
-        std::printf("%s\n", report.json().dump().c_str());
+        std::printf("%s\n", json_text(report.json()).c_str());
     } else if (!arguments.common.quiet) {
         std::printf("%s: %d clips made, %d kept, %zu failed, %s\n", options.out.string().c_str(),
                     report.made, report.kept, report.failed.size(),

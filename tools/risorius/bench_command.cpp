@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_text.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/output_paths.h"
 #include "tools/bench/bench_machine.h"
@@ -150,7 +151,7 @@ void run(const BenchArguments& arguments) {
         ProgressBar bar(arguments.common);
         report = bench::bench_machine(options, bar.monitor());
     }
-    const std::string text = report.dump(2) + "\n";
+    const std::string text = json_text(report, 2) + "\n";
     if (!arguments.out.empty()) report::write_text(arguments.out, text);
     if (arguments.common.json)
         std::printf("%s", text.c_str());

@@ -5,6 +5,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_cursor.h"
+#include "risorius/core/json_text.h"
 #include "tools/risorius/check_files.h"
 #include "tools/risorius/commands.h"
 
@@ -34,7 +35,7 @@ void run(const CheckArguments& arguments) {
         std::printf("%s: %s, fine\n", file.string().c_str(), result.format.c_str());
         for (const std::string& note : result.notes) std::printf("  note: %s\n", note.c_str());
     }
-    if (arguments.common.json) std::printf("%s\n", report.dump(2).c_str());
+    if (arguments.common.json) std::printf("%s\n", json_text(report, 2).c_str());
     if (broken) throw SaidAlready();
 }
 

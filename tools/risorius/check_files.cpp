@@ -3,14 +3,17 @@
 
 #include <algorithm>
 
+#include "risorius/animate/render_inputs.h"
+#include "risorius/animate/render_job.h"
+#include "risorius/animate/render_request.h"
 #include "risorius/core/data_folder.h"
-#include "risorius/core/existing_file.h"
 #include "risorius/figures/registry.h"
 #include "risorius/fitting/landmark_file.h"
 #include "risorius/fitting/part_guess.h"
 #include "risorius/io/read_mesh.h"
 #include "risorius/rig/head.h"
 #include "risorius/scene/rig_files.h"
+#include "risorius/scene/scene_from_rig.h"
 #include "risorius/stimuli/batch.h"
 #include "risorius/track/script.h"
 #include "tools/risorius/schema_check.h"
@@ -21,10 +24,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Adds what the reader of a mesh left out, and what is wrong with its pictures.
+void note_pictures(const geom::PolygonMesh& mesh, CheckResult& result) {
+    for (const std::string& note : mesh.notes) result.notes.push_back(readable_text(note));
+    for (std::string& note : scene::picture_problems(mesh)) result.notes.push_back(std::move(note));
+}
+
 void check_rig(const fs::path& file, CheckResult& result) {
     const scene::RigFiles files = scene::read_rig_files(file);
     const rig::Head head = rig::place_head(files.rig, files.mesh, files.place());
     result.notes = files.rig.notes;
+    note_pictures(files.mesh, result);
     if (!head.warped_landmarks.empty())
         result.notes.push_back(std::to_string(head.warped_landmarks.size()) +
                                " landmarks are not given and placed by the atlas");
@@ -48,13 +58,32 @@ void note_late_events(const track::ScriptDescription& script, CheckResult& resul
             note("\"" + event.expression + "\"", "has gone back", until + event.offset_s);
 }
 
+/// Adds a note for each channel and event that changes nothing in any frame.
+void note_idle_channels(const track::ScriptDescription& script, CheckResult& result) {
+    for (const track::ChannelTrack& channel : script.channels)
+        if (std::all_of(channel.keys.begin(), channel.keys.end(),
+                        [](const track::Key& key) { return key.value == 0; }))
+            result.notes.push_back("\"" + channel.name + "\" is 0 in every key and never acts");
+    for (const track::ExpressionEvent& event : script.expressions)
+        if (event.intensity == 0)
+            result.notes.push_back("\"" + event.expression + "\" has an intensity of 0");
+    for (const track::BlinkEvent& event : script.blinks)
+        if (event.intensity == 0)
+            result.notes.push_back("the blink at " + format_number(event.start_s) +
+                                   " s has an intensity of 0");
+}
+
+/// Reads and checks all that `risorius render` reads and checks before it draws.
 void check_script(const JsonCursor& json, CheckResult& result) {
-    const track::ScriptHeader header = track::read_script_header(json);
-    existing_file(json.at("rig"));
-    const scene::RigFiles files = scene::read_rig_files(header.rig_file);
-    note_late_events(
-        track::read_script(json, files.rig.channels(), files.rig.facs, files.rig.expressions),
-        result);
+    animate::RenderRequest request;
+    request.script = result.file;
+    request.script_in_memory = json;
+    request.out = "check.mkv";  // nothing is written
+    const animate::RenderJob job = animate::plan_render_job(request);
+    result.notes = job.script.notes;
+    note_late_events(job.script, result);
+    note_idle_channels(job.script, result);
+    const scene::RigFiles& files = job.rig->files;
     rig::place_head(files.rig, files.mesh, files.place());
 }
 
@@ -74,9 +103,16 @@ void check_mesh_file(const fs::path& file, CheckResult& result) {
     for (std::size_t g = 0; g < mesh.group_names.size(); ++g)
         if (fitting::role_suggested_by(mesh.group_names[g]) == "skin")
             options.groups.push_back(static_cast<int>(g));
-    const geom::MeshReport report = geom::check_mesh(mesh, file.string(), options);
+    const geom::MeshReport report = geom::inspect_mesh(mesh, file.string(), options);
     for (const geom::MeshFinding& finding : report.findings)
-        result.notes.push_back(finding.message());
+        if (finding.severity == geom::Severity::kError)
+            throw Error(
+                finding.place, finding.expected,
+                finding.found +
+                    (geom::can_be_repaired(finding.check) ? " (fit --repair mends a scan)" : ""));
+    for (const geom::MeshFinding& finding : report.findings)
+        result.notes.push_back(readable_text(finding.message()));
+    note_pictures(mesh, result);
 }
 
 void check(CheckResult& result) {

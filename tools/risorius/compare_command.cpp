@@ -5,6 +5,7 @@
 
 #include "risorius/animate/compare.h"
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "tools/risorius/commands.h"
 #include "tools/risorius/render_options.h"
 
@@ -40,7 +41,7 @@ void run_compare(CompareArguments& arguments) {
         record = animate::compare(left, right, bar.monitor());
     }
     if (arguments.common.json)
-        std::printf("%s\n", record.dump(2).c_str());
+        std::printf("%s\n", json_text(record, 2).c_str());
     else if (!arguments.common.quiet)
         std::printf("%s: %d frames side by side\n", left.out.string().c_str(),
                     record["frames"].get<int>());

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/inverse/compare_heads.h"
 #include "risorius/inverse/evaluate.h"
 #include "tools/risorius/commands.h"
@@ -88,7 +89,7 @@ void compare(EvaluateArguments& arguments) {
                                             arguments.options.quality, bar.monitor());
     }
     if (arguments.common.json)
-        std::printf("%s\n", comparison.json().dump(2).c_str());
+        std::printf("%s\n", json_text(comparison.json(), 2).c_str());
     else if (!arguments.common.quiet)
         print(comparison);
 }
@@ -105,7 +106,7 @@ void run(EvaluateArguments& arguments) {
         evaluation = inverse::evaluate(arguments.options, bar.monitor());
     }
     if (arguments.common.json)
-        std::printf("%s\n", evaluation.json().dump(2).c_str());
+        std::printf("%s\n", json_text(evaluation.json(), 2).c_str());
     else if (!arguments.common.quiet)
         print(evaluation, arguments.options);
 }

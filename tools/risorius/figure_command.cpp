@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/figures/figure_page.h"
 #include "risorius/figures/run_figure.h"
 #include "tools/risorius/commands.h"
@@ -36,7 +37,7 @@ void list(const FigureArguments& arguments) {
         for (const figures::FigureEntry& entry : entries)
             report.push_back(
                 {{"id", entry.id}, {"title", entry.title}, {"run_time_s", entry.run_time_s}});
-        std::printf("%s\n", report.dump(2).c_str());
+        std::printf("%s\n", json_text(report, 2).c_str());
         return;
     }
     if (arguments.common.quiet) return;
@@ -75,7 +76,7 @@ void run(const FigureArguments& arguments) {
     }
     const std::string page = (options.out / "index.html").generic_string();
     if (arguments.common.json) {
-        std::printf("%s\n", report.results.dump(2).c_str());
+        std::printf("%s\n", json_text(report.results, 2).c_str());
     } else if (!arguments.common.quiet) {
         if (report.results.contains("figures"))
             for (const Json& figure : report.results["figures"]) print_figure(figure);

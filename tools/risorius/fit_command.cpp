@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/fitting/fit_rig.h"
 #include "risorius/rig/head.h"
 #include "tools/risorius/commands.h"
@@ -87,7 +88,7 @@ void run(FitArguments& arguments) {
         report = fitting::fit_rig(arguments.options, bar.monitor());
     }
     if (arguments.common.json)
-        std::printf("%s\n", report.json().dump(2).c_str());
+        std::printf("%s\n", json_text(report.json(), 2).c_str());
     else if (!arguments.common.quiet)
         print(report);
 }
@@ -119,6 +120,10 @@ void add_fit(CLI::App& app) {
         "Simulate the muscles listed in standard/muscle_solids.json as volume-preserving solids");
     command->add_flag("--cut-lips", arguments->options.cut_lips,
                       "Cut lips that are joined in a scan; the cut mesh is written beside the rig");
+    command->add_flag(
+        "--repair", arguments->options.repair,
+        "Mend the skin of a scan: take out double faces, faces without area and loose "
+        "bits, turn flipped faces; the mended mesh is written beside the rig");
     command->add_option("--report", options.report,
                         "A folder for a report of the fit with pictures and numbers");
     command->add_flag("--no-calibrate", arguments->no_calibrate,

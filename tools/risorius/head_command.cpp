@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/headmodel/sculpt_head.h"
 #include "tools/risorius/commands.h"
 
@@ -26,7 +27,7 @@ void run(HeadArguments& arguments) {
         report = headmodel::sculpt_head(arguments.options, bar.monitor());
     }
     if (arguments.common.json) {
-        std::printf("%s\n", report.json().dump(2).c_str());
+        std::printf("%s\n", json_text(report.json(), 2).c_str());
     } else if (!arguments.common.quiet) {
         std::printf("%s: %s\n", report.out.string().c_str(), report.identity.name.c_str());
         for (const std::string& file : report.files) std::printf("  %s\n", file.c_str());

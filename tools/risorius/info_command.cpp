@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_text.h"
 #include "tools/risorius/commands.h"
 #include "tools/risorius/rig_info.h"
 
@@ -57,7 +58,7 @@ void print_rig(const Json& info) {
 void run(const InfoArguments& arguments) {
     const Json info = cli::rig_info(arguments.rig);
     if (arguments.common.json)
-        std::printf("%s\n", info.dump(2).c_str());
+        std::printf("%s\n", json_text(info, 2).c_str());
     else if (!arguments.common.quiet)
         print_rig(info);
 }

@@ -3,16 +3,23 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <new>
 #include <regex>
 #include <string>
 #include <vector>
 
 #include "risorius/core/error.h"
+#include "risorius/core/input_log.h"
 #include "risorius/core/known_names.h"
 #include "risorius/core/progress_monitor.h"
+#include "risorius/core/readable_text.h"
 #include "risorius/core/version.h"
 #include "tools/risorius/commands.h"
 #include "tools/risorius/manual_pages.h"
+#include "tools/risorius/stop_signals.h"
 
 namespace {
 
@@ -114,9 +121,7 @@ void name_values(CLI::App& command) {
     for (CLI::App* part : command.get_subcommands({})) name_values(*part);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
     using namespace risorius;
     CLI::App app("Faces moved by muscles: from a script to a video.", "risorius");
     app.set_version_flag("--version", std::string("risorius ") + risorius::kVersion);
@@ -141,7 +146,7 @@ int main(int argc, char** argv) {
     manual->group("")->add_option("FOLDER", manual_folder, "The folder")->required();  // hidden
     manual->callback([&] { cli::write_manual_pages(app, manual_folder); });
     name_values(app);
-    cli::catch_interrupts();
+    const InputLog inputs;  // no output takes the place of one
     try {
         app.parse(argc, argv);  // also runs the command
     } catch (const CLI::ParseError& error) {
@@ -152,9 +157,32 @@ int main(int argc, char** argv) {
     } catch (const cli::SaidAlready&) {
         return kWrongInput;
     } catch (const Interrupted&) {
-        return say(kInterrupted, "interrupted, nothing was written");
+        cli::end_of_run();
+        return say(kInterrupted, cli::stop_message());
+    } catch (const std::bad_alloc&) {
+        return say(kFailed, "not enough memory");
+    } catch (const std::filesystem::filesystem_error& error) {
+        return say(kFailed, readable_text(error.path1().string() + ": " + error.code().message()));
     } catch (const std::exception& error) {
-        return say(kFailed, error.what());
+        return say(kFailed, readable_text(error.what()));
     }
     return kDone;
+}
+
+/// Whether everything that was printed has arrived.
+bool is_printed() {
+    std::cout.flush();
+    return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    risorius::cli::catch_stop_signals();
+    const int code = run(argc, argv);
+    risorius::cli::end_of_run();
+    // At once: what libraries do at the end may take seconds.
+    if (code == kInterrupted) std::_Exit(code);
+    if (is_printed() || code != kDone) return code;
+    return say(kFailed, "standard output: the report cannot be written");
 }

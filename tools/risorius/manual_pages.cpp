@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "tools/risorius/manual_pages.h"
 
-#include <fstream>
 #include <regex>
 #include <sstream>
 
 #include "risorius/core/error.h"
+#include "risorius/core/output_set.h"
 #include "risorius/core/version.h"
 
 namespace risorius::cli {
@@ -122,12 +122,7 @@ std::string choices_of(const Flag& flag) {
 }
 
 void write(const fs::path& file, const std::string& text, std::vector<fs::path>& written) {
-    std::error_code failed;
-    fs::create_directories(file.parent_path(), failed);
-    std::ofstream out(file, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) throw RunError(file.string() + ": cannot be written");
+    write_file(file, text);
     written.push_back(file);
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/animate/animate.h"
+#include "risorius/core/json_text.h"
 #include "tools/risorius/commands.h"
 #include "tools/risorius/render_options.h"
 
@@ -25,7 +26,7 @@ void run(RenderArguments& arguments) {
         record = animate::animate(arguments.options, bar.monitor());
     }
     if (arguments.common.json) {
-        std::printf("%s\n", record.json().dump(2).c_str());
+        std::printf("%s\n", json_text(record.json(), 2).c_str());
         return;
     }
     if (arguments.common.quiet) return;

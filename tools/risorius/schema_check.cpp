@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -26,11 +25,10 @@ constexpr const char* kEnding = ".schema.json";
 
 fs::path schema_folder() { return data_folder() / "docs/formats/schema"; }
 
-nlohmann::json read_plain(const fs::path& file) {
-    std::ifstream in(file);
-    if (!in) throw Error(file.string(), "a JSON schema", "no such file");
-    return nlohmann::json::parse(in);
-}
+/// The validator needs another JSON type.
+nlohmann::json plain(const JsonCursor& json) { return nlohmann::json(json.json()); }
+
+nlohmann::json read_plain(const fs::path& file) { return plain(JsonCursor::read_file(file)); }
 
 std::unique_ptr<valijson::Schema> read_schema(const std::string& format) {
     const nlohmann::json document = read_plain(schema_folder() / (format + kEnding));
@@ -70,8 +68,7 @@ std::vector<std::string> schema_formats() {
 
 void check_against_schema(const JsonCursor& json, const std::string& format) {
     const std::unique_ptr<valijson::Schema> schema = read_schema(format);
-    // The validator needs a copy of another JSON type.
-    const nlohmann::json document = nlohmann::json::parse(json.json().dump());
+    const nlohmann::json document = plain(json);
     valijson::ValidationResults results;
     valijson::Validator validator;
     if (validator.validate(*schema, NlohmannJsonAdapter(document), &results)) return;

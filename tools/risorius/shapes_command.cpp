@@ -5,6 +5,7 @@
 
 #include "risorius/blendshapes/bake_shapes.h"
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "tools/risorius/commands.h"
 
 namespace risorius::cli {
@@ -75,7 +76,7 @@ void run(ShapesArguments& arguments) {
         report = blendshapes::bake_shapes(arguments.options, bar.monitor());
     }
     if (arguments.common.json)
-        std::printf("%s\n", report.json().dump(2).c_str());
+        std::printf("%s\n", json_text(report.json(), 2).c_str());
     else if (!arguments.common.quiet)
         print(report, arguments.options);
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/animate/sheet.h"
+#include "risorius/core/json_text.h"
 #include "tools/risorius/commands.h"
 #include "tools/risorius/render_options.h"
 
@@ -25,7 +26,7 @@ void run_sheet(SheetArguments& arguments) {
         record = animate::make_sheet(arguments.options, bar.monitor());
     }
     if (arguments.common.json)
-        std::printf("%s\n", record.dump(2).c_str());
+        std::printf("%s\n", json_text(record, 2).c_str());
     else if (!arguments.common.quiet)
         std::printf("%s: %zu x %zu pictures\n", arguments.options.out.string().c_str(),
                     record["runs"].size(), arguments.options.times_s.size());

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/inverse/solve_activations.h"
 #include "tools/risorius/commands.h"
 
@@ -23,6 +24,7 @@ void print(const inverse::SolveReport& report, const inverse::SolveOptions& opti
     for (const inverse::SolvedDrive& one : report.solved)
         std::printf("  %-24s %9.3f %9.3f %9.3f %8.2f\n", one.name.c_str(), 1e3 * one.given_rms_m,
                     1e3 * one.rms_m, 1e3 * one.max_m, one.highest);
+    for (const std::string& note : report.notes) std::printf("  note: %s\n", note.c_str());
     std::printf("all: %.3f mm RMS left; script: %s\n", 1e3 * report.rms_m(),
                 (options.out / "script.json").generic_string().c_str());
 }
@@ -37,7 +39,7 @@ void run(SolveArguments& arguments) {
         report = inverse::solve_activations(arguments.options, bar.monitor());
     }
     if (arguments.common.json)
-        std::printf("%s\n", report.json().dump(2).c_str());
+        std::printf("%s\n", json_text(report.json(), 2).c_str());
     else if (!arguments.common.quiet)
         print(report, arguments.options);
 }

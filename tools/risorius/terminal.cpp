@@ -5,18 +5,15 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
+
+#include "tools/risorius/stop_signals.h"
 
 namespace risorius::cli {
 
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
-
 constexpr double kQuiet_s = 2, kBarEvery_s = 0.1, kLineEvery_s = 30;
-
-void note_interrupt(int) { interrupted = 1; }
 
 std::string time_text(double seconds) {
     const int whole = static_cast<int>(seconds + 0.5);
@@ -27,11 +24,6 @@ std::string time_text(double seconds) {
 
 }  // namespace
 
-void catch_interrupts() {
-    std::signal(SIGINT, note_interrupt);
-    std::signal(SIGTERM, note_interrupt);
-}
-
 ProgressBar::ProgressBar(const Common& common)
     : wanted_(!common.quiet), on_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
@@ -41,7 +33,7 @@ ProgressBar::~ProgressBar() {
 
 ProgressMonitor ProgressBar::monitor() {
     return {.progress = [this](double fraction, const std::string& what) { show(fraction, what); },
-            .stopped = [] { return interrupted != 0; }};
+            .stopped = stop_is_asked};
 }
 
 void ProgressBar::show(double fraction, const std::string& what) {

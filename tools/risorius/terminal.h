@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The progress bar of the program, and the handling of Ctrl-C.
+/// The progress bar of the program, and the options that every command has.
 #pragma once
 
 #include <chrono>
@@ -23,9 +23,6 @@ struct Common {
 
 /// Adds --quiet and --json to a command.
 void add_common(CLI::App& command, Common& common);
-
-/// From now on, SIGINT and SIGTERM end a run between two frames; the program then removes incomplete files.
-void catch_interrupts();
 
 /// Shows progress on standard error for runs longer than two seconds. If standard error is not a terminal, it writes a line every
 /// half minute.

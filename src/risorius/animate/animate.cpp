@@ -6,9 +6,13 @@
 
 #include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/output_set.h"
+#include "risorius/core/read_file.h"
 #include "risorius/media/image_file.h"
+#include "risorius/media/sha256.h"
 #include "risorius/media/video_writer.h"
-#include "risorius/report/atomic_file.h"
+#include "risorius/report/atomic_folder.h"
 #include "risorius/report/output_paths.h"
 #include "risorius/report/stopwatch.h"
 
@@ -18,11 +22,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr FileKind kSound{"a file with sound", 1'000'000 * kMegabyte};
+
 // The main output: a video, or a single picture for a still.
 class Output {
   public:
-    explicit Output(const RenderJob& job) : out_(job.out) {
-        if (!job.still) video_.emplace(job.out, job.video);
+    Output(const RenderJob& job, OutputSet& outputs)
+        : out_(job.out.has_filename() ? outputs.file(job.out) : outputs.folder(job.out) / "") {
+        if (!job.still) video_.emplace(out_, job.video);
     }
     void append(Image image) {
         if (video_)
@@ -30,13 +37,15 @@ class Output {
         else
             still_ = std::move(image);
     }
-    void finish() {
+    /// Returns the SHA-256 of the file; empty for a folder of frames.
+    std::string finish() {
         if (video_)
             video_->finish();
         else if (!still_.deep.empty())
             media::write_png16(still_, out_);
         else
             media::write_png(still_, out_);
+        return out_.has_filename() ? media::sha256_of_file(out_) : "";
     }
 
   private:
@@ -55,12 +64,20 @@ RunRecord animate(const RenderRequest& request, const ProgressMonitor& monitor) 
             option_name("still_s") +
                 " with it, the name of a video, or of a folder of PNG frames, which ends in /",
             "\".png\" alone");
-    const RenderJob job = plan_render_job(request);
+    RenderJob job = plan_render_job(request);
     const fs::path record_file = report::output_path(job.out, ".json"),
                    table_file = report::output_path(job.out, ".frames.tsv");
     report::check_record(record_file);
     report::check_table(table_file);
-    Output output(job);
+    if (request.audio) check_file(*request.audio, kSound);  // so that it is known as an input
+    OutputSet outputs(folder_of_output(job.out));
+    Output output(job, outputs);
+    const fs::path record_text = outputs.file(record_file), table_text = outputs.file(table_file);
+    const fs::path passes = job.passes_folder;
+    if (!job.passes.empty()) {
+        report::check_results_folder(passes);
+        job.passes_folder = outputs.folder(passes);
+    }
 
     // One picture per frame
     RenderSession session;
@@ -68,16 +85,17 @@ RunRecord animate(const RenderRequest& request, const ProgressMonitor& monitor) 
         job, session, [&](Image image) { output.append(std::move(image)); }, monitor);
 
     // All files appear together, or none.
-    report::AtomicFile frame_table(table_file, result.table);
+    write_file(table_text, result.table);
     const report::Stopwatch closing;
-    output.finish();
-    if (result.passes) result.passes->commit();
     RunRecord& record = result.record;
+    record.out_sha256 = output.finish();
+    if (result.passes) result.passes->commit();
     record.timing.encode_s += closing.seconds();
     record.timing.total_s = total.seconds();
-    report::write_text(record_file, record.json().dump(2) + "\n");
-    frame_table.commit();
+    write_file(record_text, json_text(record.json(), 2) + "\n");
     monitor.report(1, "done");
+    if (!job.passes.empty()) report::check_results_folder(passes);
+    outputs.commit();
     return record;
 }
 

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/animate/compare.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
+#include "risorius/core/input_log.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/output_set.h"
+#include "risorius/media/sha256.h"
 #include "risorius/media/video_reader.h"
 #include "risorius/media/video_writer.h"
 #include "risorius/render/lettering.h"
-#include "risorius/report/atomic_file.h"
 #include "risorius/report/output_paths.h"
 
 namespace risorius::animate {
@@ -21,24 +22,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kGap_px = 4;
-
-/// A lossless video of the left side, kept until the right side is rendered. The file is removed with this object.
-class SideFile {
-  public:
-    explicit SideFile(const fs::path& out)
-        : path_(fs::absolute(out.has_filename() ? out : out.parent_path()).parent_path() /
-                (".risorius-left-" + std::to_string(::getpid()) + ".mkv")) {}
-    ~SideFile() {
-        std::error_code ignored;
-        fs::remove(path_, ignored);
-    }
-    SideFile(const SideFile&) = delete;
-    SideFile& operator=(const SideFile&) = delete;
-    const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_;
-};
 
 Image joined(const Image& left, const Image& right) {
     Image out(left.width_px + kGap_px + right.width_px, left.height_px);
@@ -87,7 +70,12 @@ Json compare(const RenderRequest& left_request, const RenderRequest& right_reque
                                report::output_path(left.out, ".right.frames.tsv")};
     report::check_record(record);
     for (const fs::path& table : tables) report::check_table(table);
-    media::VideoWriter video(left.out, coding);  // also makes the folder
+    OutputSet outputs(folder_of_output(left.out));
+    const bool of_frames = !left.out.has_filename();
+    const fs::path out = of_frames ? outputs.folder(left.out) / "" : outputs.file(left.out);
+    const fs::path record_text = outputs.file(record);
+    const fs::path table_text[] = {outputs.file(tables[0]), outputs.file(tables[1])};
+    media::VideoWriter video(out, coding);
 
     const auto half = [&](double begun) {
         ProgressMonitor part = monitor;
@@ -101,21 +89,23 @@ Json compare(const RenderRequest& left_request, const RenderRequest& right_reque
         RenderSession session;
         return run_render_job(job, session, use, part);
     };
-    const SideFile kept(left.out);
+    // A lossless video of the left side, until the right side is rendered
+    const fs::path kept = outputs.scratch_file("left.mkv");
     const std::string captions[] = {caption_of(left, right), caption_of(right, left)};
     RenderResult results[2];
     {
-        media::VideoWriter side(kept.path(), {.width_px = left.view.width_px,
-                                              .height_px = left.view.height_px,
-                                              .fps = left.fps,
-                                              .alpha = left.video.alpha});
+        media::VideoWriter side(kept, {.width_px = left.view.width_px,
+                                       .height_px = left.view.height_px,
+                                       .fps = left.fps,
+                                       .alpha = left.video.alpha});
         results[0] = run(left, half(0), [&](Image image) {
             write_caption(captions[0], image);
             side.append(image);
         });
         side.finish();
     }
-    media::VideoReader before(kept.path());
+    const ReadingFormerOutput own;
+    media::VideoReader before(kept);
     Image on_left, on_right;
     int shown = 0;
     const auto show = [&] {
@@ -134,13 +124,12 @@ Json compare(const RenderRequest& left_request, const RenderRequest& right_reque
     Json json{{"format", "risorius-comparison"}, {"version", 1}, {"frames", shown}};
     json["left"] = results[0].record.json();
     json["right"] = results[1].record.json();
-    report::AtomicFile table_left(tables[0], results[0].table),
-        table_right(tables[1], results[1].table), both(record, json.dump(2) + "\n");
     video.finish();
-    table_left.commit();
-    table_right.commit();
-    both.commit();
+    if (!of_frames) json["out_sha256"] = media::sha256_of_file(out);
+    for (std::size_t side = 0; side < 2; ++side) write_file(table_text[side], results[side].table);
+    write_file(record_text, json_text(json, 2) + "\n");
     monitor.report(1, "done");
+    outputs.commit();
     return json;
 }
 

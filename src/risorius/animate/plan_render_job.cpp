@@ -8,6 +8,7 @@
 #include "risorius/animate/render_job.h"
 #include "risorius/core/error.h"
 #include "risorius/core/existing_file.h"
+#include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/face/quality.h"
 #include "risorius/media/hdr_file.h"
@@ -47,7 +48,7 @@ media::VideoOptions video_options(const RenderRequest& request, const RenderJob&
     if (request.audio_offset && !request.audio)
         throw Error(option_name("audio_offset"), "a recording, by " + option_name("audio"), "none");
     if (!request.audio) return video;
-    video.sound = std::make_shared<media::Sound>(media::read_recording(*request.audio));
+    video.sound = std::make_shared<media::Recording>(media::open_recording(*request.audio));
     video.sound_offset_samples = request.audio_offset.value_or(0);
     const double at_s = static_cast<double>(video.sound_offset_samples) / video.sound->rate_hz;
     const double length_s = static_cast<double>(video.sound->length()) / video.sound->rate_hz;
@@ -246,7 +247,8 @@ void plan_times(const RenderRequest& request, RenderJob& job) {
 /// The script as read, from memory or from its file.
 ScriptInput script_input(const RenderRequest& request, RenderInputs& inputs) {
     if (request.script_in_memory)
-        return {*request.script_in_memory, sha256_of_text(request.script_in_memory->json().dump())};
+        return {*request.script_in_memory,
+                sha256_of_text(json_text(request.script_in_memory->json()))};
     return *inputs.script(request.script);
 }
 

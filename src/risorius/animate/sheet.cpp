@@ -6,9 +6,11 @@
 
 #include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
+#include "risorius/core/output_set.h"
 #include "risorius/media/image_file.h"
-#include "risorius/report/atomic_file.h"
+#include "risorius/media/sha256.h"
 #include "risorius/report/contact_sheet.h"
 #include "risorius/report/output_paths.h"
 
@@ -123,6 +125,10 @@ Json make_sheet(const SheetOptions& options, const ProgressMonitor& monitor) {
     sheet.columns = column_names(options, cameras);
     const std::vector<report::ContactRow> others =
         rows_beside(options.beside, sheet.columns.size(), first.width_px, first.height_px);
+    OutputSet outputs(folder_of_output(options.out));
+    const std::filesystem::path out = outputs.file(options.out),
+                                record_text =
+                                    outputs.file(report::output_path(options.out, ".json"));
 
     Json record{{"format", "risorius-sheet"}, {"version", 1}, {"runs", Json::array()}};
     RenderSession session;
@@ -155,9 +161,11 @@ Json make_sheet(const SheetOptions& options, const ProgressMonitor& monitor) {
         sheet.rows.push_back(std::move(row));
     }
     sheet.rows.insert(sheet.rows.end(), others.begin(), others.end());
-    report::AtomicFile staged(report::output_path(options.out, ".json"), record.dump(2) + "\n");
-    media::write_png(report::draw_contact_sheet(sheet), options.out);
-    staged.commit();
+    media::write_png(report::draw_contact_sheet(sheet), out);
+    record["out_sha256"] = media::sha256_of_file(out);
+    write_file(record_text, json_text(record, 2) + "\n");
+    monitor.throw_if_stopped();
+    outputs.commit();
     return record;
 }
 

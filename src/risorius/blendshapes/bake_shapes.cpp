@@ -8,6 +8,7 @@
 #include "risorius/blendshapes/detail/random_weights.h"
 #include "risorius/blendshapes/detail/shape_files.h"
 #include "risorius/blendshapes/detail/shapes_page.h"
+#include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/face/diagnostics.h"
 #include "risorius/report/atomic_file.h"
@@ -304,7 +305,8 @@ ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& mo
                        shapes_page(report, pictures ? &*pictures : nullptr));
     Json json = report.json();
     json[report::kFilesKey] = written;
-    report::write_text(folder.partial() / "results.json", json.dump(2) + "\n");
+    report::write_text(folder.partial() / "results.json", json_text(json, 2) + "\n");
+    monitor.throw_if_stopped();
     folder.commit();
     return report;
 }

@@ -31,22 +31,9 @@ bool holds_data(const fs::path& folder) {
            fs::is_directory(folder / "models", ignored);
 }
 
-/// The folder of the program or shared library that contains this function; empty when the system does not tell.
-fs::path own_folder() {
-    std::error_code failed;
-    const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-    Dl_info info{};
-    if (::dladdr(reinterpret_cast<const void*>(&data_folder), &info) != 0 && info.dli_fname) {
-        // A program's own name may be relative to a folder it has left since. A library's path is absolute.
-        const fs::path file = fs::weakly_canonical(info.dli_fname, failed);
-        if (!failed && file.is_absolute() && fs::exists(file, failed)) return file.parent_path();
-    }
-    return program.parent_path();
-}
-
 std::vector<fs::path> candidates() {
     std::vector<fs::path> folders;
-    const fs::path own = own_folder();
+    const fs::path own = code_folder();
     if (!own.empty()) {
         // Covers bin/risorius and lib/librisorius.so, and also lib/x86_64-linux-gnu/librisorius.so.
         for (const char* up : {"..", "../.."})
@@ -70,6 +57,18 @@ std::vector<fs::path> candidates() {
 bool add_installed_data(const char* folder) {
     installed().emplace_back(folder);
     return true;
+}
+
+std::filesystem::path code_folder() {
+    std::error_code failed;
+    const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+    Dl_info info{};
+    if (::dladdr(reinterpret_cast<const void*>(&data_folder), &info) != 0 && info.dli_fname) {
+        // A program's own name may be relative to a folder it has left since. A library's path is absolute.
+        const fs::path file = fs::weakly_canonical(info.dli_fname, failed);
+        if (!failed && file.is_absolute() && fs::exists(file, failed)) return file.parent_path();
+    }
+    return program.parent_path();
 }
 
 std::filesystem::path data_folder() {

@@ -18,6 +18,9 @@ namespace risorius {
 /// Throws Error that names the places when none of them holds the files.
 std::filesystem::path data_folder();
 
+/// The folder of the program or shared library that contains this code; empty when the system does not tell.
+std::filesystem::path code_folder();
+
 /// Sets the folder that data_folder() searches first, for programs that come with their own data files. An empty path removes
 /// it.
 void set_data_folder(const std::filesystem::path& folder);

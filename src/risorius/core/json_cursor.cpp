@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <unordered_set>
 
 #include "risorius/core/existing_file.h"
 #include "risorius/core/json_text.h"
@@ -55,23 +55,18 @@ std::string escape_pointer(std::string_view key) {
     return out;
 }
 
-// Finds keys that are given twice. nlohmann keeps the last of two equal keys, but a script that sets a channel twice is a
-// mistake.
-struct DuplicateKeyFinder {
-    std::vector<std::set<std::string>> open;
-    std::string duplicate;
-    bool operator()(int /*depth*/, Json::parse_event_t event, Json& parsed) {
-        if (event == Json::parse_event_t::object_start) open.emplace_back();
-        if (event == Json::parse_event_t::object_end && !open.empty()) open.pop_back();
-        if (event == Json::parse_event_t::key && !open.empty() && duplicate.empty()) {
-            const std::string key = parsed.get<std::string>();
-            if (!open.back().insert(key).second) duplicate = key;
-        }
-        return true;
-    }
-};
-
 }  // namespace
+
+Json json_or_null(std::string_view text) {
+    int depth = 0, deepest = 0;  // brackets in strings count too: this refuses more than it has to
+    for (const char c : text) {
+        if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+        if (c == ']' || c == '}') --depth;
+    }
+    if (deepest > kDeepestJson) return nullptr;
+    Json value = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+    return value.is_discarded() ? Json() : value;
+}
 
 std::string json_text(const Json& value, int indent) {
     return value.dump(indent, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace);
@@ -153,14 +148,52 @@ void check_depth(const std::string& text, const std::filesystem::path& name) {
     }
 }
 
+/// The first key that is given twice in an object, or empty. nlohmann keeps the last of two equal keys, but a script that sets a
+/// channel twice is a mistake. The text may be malformed. Throws Error when an object has too many keys, since nlohmann compares
+/// each with all others. (Its parser with a callback would find both, but takes the square of the length of an array.)
+std::string duplicate_key(const std::string& text, const std::filesystem::path& name) {
+    constexpr std::size_t kMostKeys = 10'000;
+    struct Open {
+        bool is_object;
+        std::unordered_set<std::string> keys{};
+    };
+    std::vector<Open> open;
+    std::string duplicate;
+    bool expects_key = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '{' || c == '[') open.push_back({c == '{'});
+        if ((c == '}' || c == ']') && !open.empty()) open.pop_back();
+        if (c == '}' || c == ']') expects_key = false;
+        if (c == '{' || c == ',') expects_key = !open.empty() && open.back().is_object;
+        if (c != '"') continue;
+        const std::size_t begin = i;
+        for (++i; i < text.size() && text[i] != '"'; ++i)
+            if (text[i] == '\\') ++i;
+        if (!expects_key || open.empty()) continue;
+        expects_key = false;
+        std::string key = text.substr(begin, i - begin + 1);
+        if (key.find('\\') != std::string::npos) {
+            const Json read = Json::parse(key, nullptr, /*allow_exceptions=*/false);
+            if (read.is_string()) key = "\"" + read.get<std::string>() + "\"";
+        }
+        auto& keys = open.back().keys;
+        if (!keys.insert(key).second && duplicate.empty()) duplicate = key;
+        if (keys.size() > kMostKeys)
+            throw Error(place_of(text, begin, name),
+                        "at most " + std::to_string(kMostKeys) + " keys in an object", "one more");
+    }
+    return duplicate;
+}
+
 }  // namespace
 
 JsonCursor parse_json_text(const std::string& text, const std::filesystem::path& name) {
     check_depth(text, name);
-    DuplicateKeyFinder duplicates;
+    const std::string duplicate = duplicate_key(text, name);
     Json document;
     try {
-        document = Json::parse(text, std::ref(duplicates));
+        document = Json::parse(text);
     } catch (const Json::parse_error& error) {
         const std::size_t at =
             std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size());
@@ -174,9 +207,8 @@ JsonCursor parse_json_text(const std::string& text, const std::filesystem::path&
         throw Error(name.string(), "numbers within +-1.8e308",
                     text_of_error.substr(std::min(text_of_error.find('\''), text_of_error.size())));
     }
-    if (!duplicates.duplicate.empty())
-        throw Error(name.string(), "every key once in its object",
-                    "\"" + duplicates.duplicate + "\" twice");
+    if (!duplicate.empty())
+        throw Error(name.string(), "every key once in its object", duplicate + " twice");
     return JsonCursor::from_json(std::move(document), name.string());
 }
 

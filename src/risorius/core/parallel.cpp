@@ -21,16 +21,18 @@ void parallel_for(int count, const ThreadLimit& threads, const std::function<voi
     std::atomic<int> next{0};
     std::atomic<bool> failed{false};
     std::mutex mutex;
-    std::vector<std::thread> others;
+    std::vector<std::jthread> others;
+    bool refused = false;
     std::function<void()> work;
     // Called before each piece of work, because a thread may have become free.
     const auto recruit = [&] {
         const std::lock_guard<std::mutex> lock(mutex);
-        if (failed || next + 1 >= count || !spare.take()) return;
-        others.emplace_back([&] {
+        if (refused || failed || next + 1 >= count || !spare.take()) return;
+        refused = !add_thread(others, [&] {
             work();
             spare.give();
         });
+        if (refused) spare.give();
     };
     work = [&] {
         for (;;) {
@@ -50,7 +52,7 @@ void parallel_for(int count, const ThreadLimit& threads, const std::function<voi
     for (;;) {
         std::unique_lock<std::mutex> lock(mutex);
         if (others.empty()) break;
-        std::thread last = std::move(others.back());
+        std::jthread last = std::move(others.back());
         others.pop_back();
         lock.unlock();
         last.join();

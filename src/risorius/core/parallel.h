@@ -6,6 +6,9 @@
 
 #include <functional>
 #include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 namespace risorius {
 
@@ -49,6 +52,17 @@ struct ThreadLimit {
 
     int count() const;
 };
+
+/// Starts a thread that is joined with the list. Returns false when the system refuses one: then the work has to do with fewer.
+template <class Work>
+bool add_thread(std::vector<std::jthread>& threads, Work work) {
+    try {
+        threads.emplace_back(std::move(work));
+        return true;
+    } catch (const std::system_error&) {
+        return false;
+    }
+}
 
 /// Calls body(i) for i in [0, count) on several threads, lowest i first. A call must not write data that other calls use. After
 /// an exception no further calls begin; when the running ones have ended, the exception with the lowest i is thrown again.

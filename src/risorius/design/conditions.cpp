@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/readable_text.h"
 
 namespace risorius::design {
 
@@ -70,11 +73,11 @@ void add_sound(const ConditionSet& set, const Parameters& values, Condition& con
     if (!set.audio) return;
     const Json file = values.filled(*set.audio);
     if (file.is_null() || file == "") return;
-    if (!file.is_string()) set.audio->fail("the name of a file", file.dump());
+    if (!file.is_string()) set.audio->fail("the name of a file", json_text(file));
     condition.audio = set.audio->folder() / file.get<std::string>();
     if (!set.audio_start_s) return;
     const Json start = values.filled(*set.audio_start_s);
-    if (!start.is_number()) set.audio_start_s->fail("a number", start.dump());
+    if (!start.is_number()) set.audio_start_s->fail("a number", json_text(start));
     condition.audio_start_s = start.get<double>();
 }
 
@@ -91,6 +94,25 @@ class Names {
   private:
     std::map<std::string, std::string> taken_;
 };
+
+/// The character of UTF-8 at `at`, which is not ASCII, in letters and digits of ASCII: the base letter of an accented Latin letter,
+/// else "u" and its code. Moves `at` to its last byte.
+std::string ascii_word(const std::string& text, std::size_t& at) {
+    const std::size_t size = character_size(std::string_view(text).substr(at));
+    if (size < 2) return "";
+    unsigned code = static_cast<unsigned char>(text[at]) & (0xffu >> (size + 1));
+    for (std::size_t i = 1; i < size; ++i)
+        code = code << 6 | (static_cast<unsigned char>(text[at + i]) & 0x3fu);
+    at += size - 1;
+    // U+00C0 to U+00FF; the signs of multiplication and division are no letters
+    constexpr std::string_view kBase =
+        "AAAAAAACEEEEIIIIDNOOOOO*OUUUUYTsaaaaaaaceeeeiiiidnooooo*ouuuuyty";
+    if (code >= 0xC0 && code <= 0xFF && kBase[code - 0xC0] != '*')
+        return std::string(1, kBase[code - 0xC0]);
+    char word[16];
+    std::snprintf(word, sizeof word, "u%04x", code);
+    return word;
+}
 
 }  // namespace
 
@@ -111,6 +133,8 @@ std::string clip_word(const std::string& text) {
             out += 'p';
         } else if (c == '-' && i == 0 && digit_after) {
             out += 'm';
+        } else if (static_cast<unsigned char>(c) >= 0x80) {
+            out += ascii_word(text, i);
         } else {
             capital = true;
         }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "risorius/core/json_text.h"
 #include "risorius/core/version.h"
 #include "risorius/report/html_writer.h"
 #include "risorius/report/markdown_html.h"
@@ -243,7 +244,7 @@ void write_record(report::HtmlWriter& html, const FigureResult& figure) {
     if (figure.record.empty()) return;
     html.open("details");
     html.element("summary", "What was run: parameters, steps, costs");
-    html.open("pre").element("code", figure.record.dump(2)).close();
+    html.open("pre").element("code", json_text(figure.record, 2)).close();
     html.close();
 }
 

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -13,6 +11,8 @@
 
 #include "risorius/core/data_folder.h"
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/read_file.h"
 #include "risorius/core/version.h"
 #include "risorius/figures/detail/experiment_kind.h"
 #include "risorius/figures/detail/figure_files.h"
@@ -37,8 +37,7 @@ fs::path folder_of_figures(const fs::path& from) {
 }
 
 std::string text_of(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
+    return fs::exists(file) ? read_file(file, {"a text file", 32 * kMegabyte}) : std::string();
 }
 
 /// An experiment to run, and the folder of its files.
@@ -103,7 +102,7 @@ std::string published_picture(const fs::path& folder) {
 }
 
 void write_json(const fs::path& file, const Json& json) {
-    report::write_text(file, json.dump(2) + "\n");
+    report::write_text(file, json_text(json, 2) + "\n");
 }
 
 /// Writes all files of one figure except the page and the times.

@@ -11,9 +11,11 @@
 #include "risorius/fitting/detail/fit_landmarks.h"
 #include "risorius/fitting/detail/fit_page.h"
 #include "risorius/fitting/detail/fit_strengths.h"
+#include "risorius/fitting/detail/mesh_parts.h"
 #include "risorius/fitting/detail/piece_guess.h"
 #include "risorius/fitting/landmark_file.h"
 #include "risorius/fitting/part_guess.h"
+#include "risorius/geom/repair_mesh.h"
 #include "risorius/io/read_mesh.h"
 #include "risorius/media/image_file.h"
 #include "risorius/report/atomic_folder.h"
@@ -22,6 +24,7 @@
 #include "risorius/rig/head.h"
 #include "risorius/rig/wrinkle_table.h"
 #include "risorius/scene/rig_files.h"
+#include "risorius/scene/scene_from_rig.h"
 
 namespace risorius::fitting {
 
@@ -173,21 +176,63 @@ void check_parts(const FitOptions& options, const geom::PolygonMesh& mesh) {
     }
 }
 
-// Writes the rig and, if it was changed, the mesh.
-void write_files(const FitOptions& options, const fs::path& standard, bool mesh_changed,
-                 const geom::PolygonMesh& mesh, rig::RigDescription& rig) {
-    if (options.out.has_parent_path()) {
-        std::error_code failure;
-        fs::create_directories(options.out.parent_path(), failure);
-        if (failure) throw RunError(options.out.parent_path().string() + ": " + failure.message());
+// The outputs of a fit: the rig, the mesh if it was changed, and the report. They appear together, unless the report is to be in
+// a folder elsewhere.
+class FitOutputs {
+  public:
+    FitOutputs(const FitOptions& options, bool mesh_changed) : options_(options) {
+        rig_ = options.out;
+        if (mesh_changed) mesh_ = changed_mesh_file(options.out);
+        if (!is_private_output(options.out)) {
+            own_.emplace(folder_of_output(options.out));
+            rig_ = own_->file(options.out);
+            if (mesh_changed) mesh_ = own_->file(mesh_);
+        }
+        if (!options.report.empty()) add_report();
     }
-    if (mesh_changed) {
-        rig.mesh_file = changed_mesh_file(options.out);
-        io::write_obj(mesh, rig.mesh_file);
+
+    // Writes the rig and, if it was changed, the mesh.
+    void write(const fs::path& standard, const geom::PolygonMesh& mesh,
+               rig::RigDescription& rig) const {
+        if (!mesh_.empty()) {
+            rig.mesh_file = changed_mesh_file(options_.out);
+            io::write_obj(mesh, mesh_);
+        }
+        rig::write_rig(rig, rig_,
+                       {.standard_folder = standard,
+                        .inline_tables = options_.inline_tables,
+                        .place = options_.out});
     }
-    rig::write_rig(rig, options.out,
-                   {.standard_folder = standard, .inline_tables = options.inline_tables});
-}
+    // The folder of the report; empty without one.
+    fs::path report() const { return report_ ? report_->partial() : fs::path(); }
+
+    void commit() {
+        if (report_) {
+            report::check_results_folder(options_.report);
+            report_->commit();
+        }
+        if (own_) own_->commit();
+    }
+
+  private:
+    void add_report() {
+        const fs::path real = report::real_results_folder(options_.report),
+                       root = report::real_results_folder(
+                           fs::absolute(folder_of_output(options_.out)));
+        const fs::path below = real.lexically_relative(root);
+        if (own_ && !below.empty() && below != "." && *below.begin() != "..") {
+            report::check_results_folder(options_.report);
+            report_.emplace(own_->folder(real));
+        } else {
+            report_.emplace(options_.report, OutputSet::Then::kRunGoesOn);
+        }
+    }
+
+    const FitOptions& options_;
+    std::optional<OutputSet> own_;
+    fs::path rig_, mesh_;
+    std::optional<report::AtomicFolder> report_;
+};
 
 void report_head(const rig::RigDescription& rig, const face::Face& face,
                  const LandmarkPositions& landmarks, FitReport& report) {
@@ -212,6 +257,58 @@ void report_head(const rig::RigDescription& rig, const face::Face& face,
         report.notes.push_back("no teeth among the groups: the lips rest on guessed ones");
 }
 
+void add_notes(const std::vector<std::string>& notes, FitReport& report) {
+    report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+}
+
+// Mends the skin. Returns whether there was anything to mend.
+bool repair_skin(const rig::RigDescription& rig, geom::PolygonMesh& mesh, FitReport& report) {
+    geom::RepairOptions options;
+    options.metres_per_unit = rig.metres_per_unit;
+    for (const std::string& group : rig.parts.at("skin"))
+        options.groups.push_back(mesh.group_index(group));
+    const std::vector<std::string> done = geom::repair_mesh(mesh, options);
+    add_notes(done, report);
+    if (done.empty()) report.notes.push_back("the skin is sound: nothing was repaired");
+    return !done.empty();
+}
+
+// Finds the roles of groups, and checks the skin. Returns whether the mesh was changed in a way that the rig cannot describe.
+bool find_parts(const FitOptions& options, const rig::HeadFrame& frame,
+                const LandmarkPositions& landmarks, geom::PolygonMesh& mesh,
+                rig::RigDescription& rig, FitReport& report) {
+    const auto left_of = [&](const Vec3& p) { return frame.to_head(p).x(); };
+    split_materials(mesh, options.parts);
+    const std::vector<std::string> by_piece = group_pieces_of(mesh, frame, landmarks, options),
+                                   by_side = split_sides(mesh, options.parts, left_of);
+    add_notes(by_piece, report);
+    add_notes(by_side, report);
+    bool changed = !by_piece.empty() || !by_side.empty();
+    check_parts(options, mesh);
+    const PartGuess guess = guess_parts(mesh, options.parts, left_of);
+    rig.parts = guess.parts;
+    add_notes(guess.notes, report);
+    if (!rig.parts.count("skin"))
+        throw Error(options.mesh.string(),
+                    "a group whose name says that it is skin (" + option_name("part") +
+                        " skin=GROUP names one)",
+                    quoted_list(mesh.group_names));
+    if (const int faces = hide_body(
+            mesh, rig.parts.at("skin"), [&](const Vec3& p) { return frame.to_head(p); },
+            frame.to_head(landmarks.at("me")), frame.size)) {
+        rig.parts["hidden"].push_back(kBodyGroup);
+        report.notes.push_back("the body below the neck is hidden (" + std::to_string(faces) +
+                               " faces)");
+        changed = true;
+    }
+    if (options.repair && repair_skin(rig, mesh, report)) changed = true;
+    const std::string advice =
+        options.repair ? "" : " (" + option_name("repair") + " mends what a scan has of these)";
+    for (const geom::MeshFinding& finding : scene::check_skin(rig, mesh, advice).findings)
+        if (finding.severity == geom::Severity::kWarning) report.notes.push_back(finding.message());
+    return changed;
+}
+
 }  // namespace
 
 FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
@@ -230,33 +327,24 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
                                              rig.muscles);
     rig.name = options.name.empty() ? options.mesh.stem().string() : options.name;
     rig.mesh_file = options.mesh;
-    geom::PolygonMesh mesh = io::read_mesh(options.mesh);
+    geom::PolygonMesh mesh =
+        io::read_mesh(options.mesh, {.metres_per_unit = 1, .stopped = monitor.stopped});
+    FitReport report;
+    report.notes = mesh.notes;
+    add_notes(scene::picture_problems(mesh), report);
     rig.landmarks = read_atlas_named_landmarks(options.landmarks, rig.atlas.landmarks);
+    add_notes(take_file_coordinates(rig.landmarks, mesh, options.mesh, options.landmarks), report);
     const LandmarkPositions landmarks = landmark_positions(rig, mesh, options.landmarks);
     check_sides(landmarks, rig.atlas, options.landmarks);
 
     // Find the unit, the size and the roles of groups.
-    FitReport report;
     report.out = options.out;
     report.guessed_unit = !options.metres_per_unit;
     rig.metres_per_unit =
         options.metres_per_unit.value_or(unit_from_landmarks(landmarks, rig.atlas));
     const rig::HeadFrame frame = rig::find_head_frame(landmarks, rig.atlas, rig.metres_per_unit);
     check_frame(frame, options);
-    report.notes = group_pieces_of(mesh, frame, landmarks, options);
-    const bool regrouped = !report.notes.empty();
-    check_parts(options, mesh);
-    PartGuess guess =
-        guess_parts(mesh, options.parts, [&](const Vec3& p) { return frame.to_head(p).x(); });
-    rig.parts = guess.parts;
-    report.notes.insert(report.notes.end(), guess.notes.begin(), guess.notes.end());
-    if (!rig.parts.count("skin"))
-        throw Error(options.mesh.string(),
-                    "a group whose name says that it is skin (" + option_name("part") +
-                        " skin=GROUP names one)",
-                    quoted_list(mesh.group_names));
-    for (const geom::MeshFinding& finding : scene::check_skin(rig, mesh).findings)
-        if (finding.severity == geom::Severity::kWarning) report.notes.push_back(finding.message());
+    const bool changed = find_parts(options, frame, landmarks, mesh, rig, report);
 
     // Check that a face can be built from it.
     monitor.report(0, "building the face");
@@ -267,14 +355,13 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
         report.lips_cut = open_lips(options, placed, rig, mesh, report.notes);
     }
     if (std::error_code unknown;
-        (report.lips_cut || regrouped) &&
+        (report.lips_cut || changed) &&
         fs::equivalent(options.mesh, changed_mesh_file(options.out), unknown))
         throw Error(
             options.out.string(),
             "a name for the rig under which the changed mesh does not take the place of yours",
             changed_mesh_file(options.out).string());
-    std::optional<report::AtomicFolder> folder;
-    if (!options.report.empty()) folder.emplace(options.report);
+    FitOutputs outputs(options, report.lips_cut || changed);
     face::Face face(rig, mesh, face::quality_named("video"), options.out.string());
     const rig::Head& head = face.head();
 
@@ -282,19 +369,23 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
     if (options.calibrate) scale_muscles(face, options, standard, monitor, rig, report);
 
     // Write the rig and the report.
-    write_files(options, standard, report.lips_cut || regrouped, mesh, rig);
+    if ((report.lips_cut || changed) && !mesh.textures.empty())
+        report.notes.push_back(
+            "the changed mesh is written without the pictures of its materials: it has the colours "
+            "of the look");
+    outputs.write(standard, mesh, rig);
     report_head(rig, face, landmarks, report);
     const BoneEstimate bone = bone_estimate(head, rig, face.diagnostics().shell());
     report.bone = bone_figures(bone);
     if (report.bone.through_skin > 0)
         report.notes.push_back(std::to_string(report.bone.through_skin) +
                                " points of bone lie outside of the skin: look at the report");
-    if (folder) {
-        media::write_png(fit_picture(head, bone, rig, mesh), folder->partial() / kFitPicture);
-        write_fit_report(report, rig, folder->partial());
-        folder->commit();
+    if (const fs::path folder = outputs.report(); !folder.empty()) {
+        media::write_png(fit_picture(head, bone, rig, mesh), folder / kFitPicture);
+        write_fit_report(report, rig, folder);
     }
     monitor.report(1, "done");
+    outputs.commit();
     return report;
 }
 

@@ -31,6 +31,9 @@ struct FitOptions {
     bool together = true;
     /// True: closed lips of a scan are separated (rig/cut_lips.h); the cut mesh is written next to the rig
     bool cut_lips = false;
+    /// True: double, flipped and empty faces and loose bits of a scan are mended (geom/repair_mesh.h); the mended mesh is written
+    /// next to the rig
+    bool repair = false;
     std::filesystem::path report{};  ///< folder for a page with pictures; empty: none
     /// True: the muscles that the standard table lists as solids are simulated as solids, not as bundles of fibres
     bool solids = false;

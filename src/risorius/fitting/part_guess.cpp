@@ -59,6 +59,10 @@ std::string role_suggested_by(const std::string& group) {
     if (name.has({"lacrimal", "occlusion", "eyeblend", "caruncle", "meniscus", "tearline", "brow",
                   "hair", "beard", "shadow", "cloth", "shirt", "glasses"}))
         return "hidden";
+    // MetaHuman, VRoid, Daz: shells around the eye, and strokes drawn on it
+    if (name.has({"eyeshell", "eyeedge", "saliva", "cartilage", "highlight", "eyeline", "moisture",
+                  "reflection", "tearduct"}))
+        return "hidden";
     if (name.has({"lash"})) return "lashes" + name.side();
     if (name.has({"socket"})) return name.has({"eye"}) ? "eye_socket" : "mouth";
     if (name.has({"cornea"})) return "cornea" + name.side();
@@ -69,11 +73,14 @@ std::string role_suggested_by(const std::string& group) {
     if (tongue) return "tongue";
     if (name.has({"eyelid", "lips"})) return "skin";
     if (name.has({"mouth", "oral"})) return "mouth";
-    if (name.has({"eye", "sclera", "iris"})) return "eye" + name.side();
+    if (name.has({"eye", "sclera", "iris", "pupil"})) return "eye" + name.side();
     const bool face = name.has({"face"}) && !name.has({"surface"});
     if (face || name.has({"skin", "head", "neck", "body", "bust", "torso"}) ||
         name.has_word({"nose", "ear", "ears", "cheek", "chin", "forehead"}))
         return "skin";
+    // MakeHuman names eyeballs after how finely they are made, and the body after its base mesh.
+    if (name.has({"highpoly", "lowpoly"})) return "eye";
+    if (name.joined == "base" || name.joined == "basemesh" || name.joined == "human") return "skin";
     return "";
 }
 

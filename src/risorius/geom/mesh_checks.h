@@ -31,6 +31,12 @@ enum class MeshCheck {
     kCoincidentVertex,  ///< boundary vertices at one position: a seam to weld
 };
 
+/// Whether repair_mesh() (repair_mesh.h) mends such a finding.
+inline bool can_be_repaired(MeshCheck check) {
+    return check == MeshCheck::kDegenerateFace || check == MeshCheck::kNonManifoldEdge ||
+           check == MeshCheck::kWinding || check == MeshCheck::kInsideOut;
+}
+
 /// How a finding is treated. check_mesh() throws the first kError.
 enum class Severity { kIgnore, kNote, kWarning, kError };
 

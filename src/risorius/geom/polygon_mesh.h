@@ -34,6 +34,15 @@ struct PolygonMesh {
     std::vector<Texture> textures;
     /// F; index into textures or -1; empty when there are no textures.
     std::vector<int> face_texture;
+    /// Materials inside of groups, see split_by_material(). Both are empty where the file has none, or groups are materials.
+    std::vector<std::string> material_names;
+    std::vector<int> face_material;  ///< F; index into material_names or -1
+    /// False: the importer of this format did not give the order of vertices in the file.
+    bool in_file_order = true;
+    /// Maps coordinates as they stand in the file to `positions`: the unit and the axes that the file states
+    Eigen::Matrix4d from_file = Eigen::Matrix4d::Identity();
+    /// What the reader left out or could not find, each a sentence with its place, for a person
+    std::vector<std::string> notes;
 
     int vertex_count() const { return static_cast<int>(positions.rows()); }
     int face_count() const { return static_cast<int>(face_begin.size()) - 1; }

@@ -18,8 +18,8 @@ using Cell = std::array<std::int64_t, 3>;
 struct CellHash {
     std::size_t operator()(const Cell& cell) const {
         // Three large primes: Teschner et al. 2003, "Optimized spatial hashing for collision detection".
-        return static_cast<std::size_t>(cell[0] * 73856093 ^ cell[1] * 19349663 ^
-                                        cell[2] * 83492791);
+        const auto of = [&](std::size_t k) { return static_cast<std::uint64_t>(cell[k]); };
+        return static_cast<std::size_t>(of(0) * 73856093U ^ of(1) * 19349663U ^ of(2) * 83492791U);
     }
 };
 
@@ -62,10 +62,18 @@ class NearVertices {
   private:
     Cell cell_of(const Vec3& p) const {
         Cell cell;
-        for (int k = 0; k < 3; ++k)
-            cell[k] = static_cast<std::int64_t>(std::floor(p(k) / cell_size_));
+        for (int k = 0; k < 3; ++k) {
+            const double c = std::floor(p(k) / cell_size_);
+            cell[k] = c > -kFarthestCell && c < kFarthestCell ? static_cast<std::int64_t>(c)
+                      : c > 0                                 ? kOutermost
+                                                              : -kOutermost;
+        }
         return cell;
     }
+
+    // Positions beyond share the outermost cells. A head has at most some 1e9 cells along an axis.
+    static constexpr double kFarthestCell = 4e18;
+    static constexpr std::int64_t kOutermost = 4'000'000'000'000'000'000;
 
     const Points& positions_;
     double tolerance_, cell_size_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/fitting/fit_rig.h"
 #include "risorius/headmodel/detail/deform_head.h"
@@ -141,7 +142,7 @@ SculptReport sculpt_head(const SculptOptions& options, const ProgressMonitor& mo
     const bool textured = options.texture_px > 0;
     headmodel::write_head(model, partial, textured ? kTextureLibrary : "");
     report::write_text(partial / kIdentityFile,
-                       headmodel::identity_json(options.identity).dump(2) + "\n");
+                       json_text(headmodel::identity_json(options.identity), 2) + "\n");
     report.files = {kMeshFile, kLandmarks, kRegions, kIdentityFile, kResults};
 
     // Give it muscles, and colours of its own
@@ -160,7 +161,7 @@ SculptReport sculpt_head(const SculptOptions& options, const ProgressMonitor& mo
         rig["appearance"] = appearance_json(options.identity, tables);
         // The pictures are for others: drawn here, the head looks the same with and without them.
         if (textured) rig["appearance"]["textures"] = "generated";
-        report::write_text(fit.out, rig.dump(1) + "\n");
+        report::write_text(fit.out, json_text(rig, 1) + "\n");
         const render::Scene scene = scene_of(fit.out);
         media::write_png(views_of(scene), partial / kViews);
         if (textured) {
@@ -171,9 +172,9 @@ SculptReport sculpt_head(const SculptOptions& options, const ProgressMonitor& mo
         report.files.insert(report.files.end(), {kRigFile, kViews});
     }
     std::sort(report.files.begin(), report.files.end());
-    report::write_text(partial / kResults, report.json().dump(2) + "\n");
-    folder.commit();
+    report::write_text(partial / kResults, json_text(report.json(), 2) + "\n");
     monitor.report(1, "done");
+    folder.commit();
     return report;
 }
 

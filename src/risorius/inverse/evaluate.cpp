@@ -6,6 +6,7 @@
 #include <set>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/face/diagnostics.h"
 #include "risorius/face/face.h"
 #include "risorius/face/surfaces.h"
@@ -76,7 +77,7 @@ void write_report(const Evaluation& evaluation, const scene::RigFiles& files, co
     report::write_text(folder / "scores.tsv", evaluation_table(evaluation));
     Json json = evaluation.json();
     json[report::kFilesKey] = written;
-    report::write_text(folder / "results.json", json.dump(2) + "\n");
+    report::write_text(folder / "results.json", json_text(json, 2) + "\n");
 }
 
 }  // namespace
@@ -222,6 +223,7 @@ Evaluation evaluate(const EvaluateOptions& options, const ProgressMonitor& monit
     }
     if (folder) {
         write_report(out, files, face.head(), area, options, folder->partial(), monitor);
+        monitor.throw_if_stopped();
         folder->commit();
     }
     return out;

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "risorius/core/error.h"
+#include "risorius/core/file_reader.h"
 #include "risorius/core/json_cursor.h"
 #include "risorius/rig/expression_drive.h"
 
@@ -46,22 +46,24 @@ struct ShapesFile {
     }
 };
 
+constexpr FileKind kShapeNumbers{"a file of the numbers of shapes", 8000 * kMegabyte};
+
 void read_numbers(ShapesFile& shapes) {
     std::filesystem::path file = shapes.json.file();
     file.replace_extension(".f32");
     if (const auto given = shapes.json.find("file")) file = given->path();
-    std::ifstream in(file, std::ios::binary | std::ios::ate);
-    if (!in)
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
         throw Error(shapes.json.place(), "the file of its numbers", "no readable " + file.string());
     const std::size_t count = 3 * shapes.names.size() * static_cast<std::size_t>(shapes.vertices);
-    const auto bytes = static_cast<std::size_t>(in.tellg());
-    if (bytes != count * sizeof(float))
+    FileReader in(file, kShapeNumbers);
+    if (in.size() != count * sizeof(float))
         throw Error(file.string(),
                     std::to_string(count * sizeof(float)) + " bytes, as \"shape\" says",
-                    std::to_string(bytes));
+                    in.is_regular() ? std::to_string(in.size()) : "a pipe");
     shapes.numbers.resize(count);
-    in.seekg(0);
-    in.read(reinterpret_cast<char*>(shapes.numbers.data()), static_cast<std::streamsize>(bytes));
+    if (in.read(shapes.numbers.data(), count * sizeof(float)) < count * sizeof(float))
+        throw Error(file.string(), "a file that does not change", "one that became shorter");
     for (std::size_t i = 0; i < count; ++i)
         if (!std::isfinite(shapes.numbers[i])) {
             const std::size_t vertex = i / 3, per_shape = static_cast<std::size_t>(shapes.vertices);

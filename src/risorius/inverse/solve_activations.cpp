@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/core/parallel.h"
 #include "risorius/face/face.h"
 #include "risorius/face/statics.h"
@@ -266,15 +267,17 @@ Json SolveReport::json() const {
         entry["drive"] = rig::drive_json(one.drive, channels);
         list.push_back(entry);
     }
-    return {{"format", "risorius-solve"},
-            {"version", 1},
-            {"name", name},
-            {"rig", rig},
-            {"given", given},
-            {"kind", sequence ? "frames" : "shapes"},
-            {"points", points},
-            {"rms_mm", 1e3 * rms_m()},
-            {"solved", list}};
+    Json json{{"format", "risorius-solve"},
+              {"version", 1},
+              {"name", name},
+              {"rig", rig},
+              {"given", given},
+              {"kind", sequence ? "frames" : "shapes"},
+              {"points", points},
+              {"rms_mm", 1e3 * rms_m()},
+              {"solved", list}};
+    if (!notes.empty()) json["notes"] = notes;
+    return json;
 }
 
 SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor& monitor) {
@@ -334,13 +337,16 @@ SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor
     report.sequence = !options.landmarks.empty();
     report.points = static_cast<int>((given.weight.array() > 0).count());
     report.channels = files.rig.channels();
+    report.notes = given.notes;
     const Solver solver(options, files, given, unknowns);
     report.solved = report.sequence ? solver.sequence(monitor) : solver.shapes(monitor);
 
-    report::write_text(folder.partial() / "script.json", script_of(report, options).dump(1) + "\n");
+    report::write_text(folder.partial() / "script.json",
+                       json_text(script_of(report, options), 1) + "\n");
     Json json = report.json();
     json[report::kFilesKey] = {"results.json", "script.json"};
-    report::write_text(folder.partial() / "results.json", json.dump(2) + "\n");
+    report::write_text(folder.partial() / "results.json", json_text(json, 2) + "\n");
+    monitor.throw_if_stopped();
     folder.commit();
     return report;
 }

@@ -58,6 +58,7 @@ struct SolveReport {
     int points = 0;  ///< number of vertices or landmarks with weight
     track::ChannelTable channels;
     std::vector<SolvedDrive> solved;
+    std::vector<std::string> notes;  ///< values of landmarks that were missing and are bridged
 
     double rms_m() const;  ///< RMS over all shapes or frames, equally weighted
     Json json() const;

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "risorius/geom/polygon_mesh.h"
 
@@ -27,6 +28,8 @@ namespace risorius::io {
 /// their unit themselves and need 1, unless they state it wrongly.
 struct MeshReadOptions {
     double metres_per_unit = 1.0;
+    /// Returns true when reading should stop; then Interrupted is thrown. It is asked while other programs work.
+    std::function<bool()> stopped{};
 };
 
 /// Throws Error for a mesh that is missing, unreadable, empty or not finite. Vertices in messages count from 0. But messages

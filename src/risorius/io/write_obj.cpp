@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes Wavefront OBJ: groups, polygons of any size and texture coordinates, in the order of the mesh.
 #include <array>
-#include <fstream>
 #include <map>
 #include <string>
 #include <system_error>
@@ -9,6 +8,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_cursor.h"
+#include "risorius/core/output_set.h"
 #include "risorius/io/read_mesh.h"
 
 namespace risorius::io {
@@ -60,25 +60,7 @@ std::string obj_text(const geom::PolygonMesh& mesh, double metres_per_unit) {
 
 void write_obj(const geom::PolygonMesh& mesh, const std::filesystem::path& file,
                double metres_per_unit) {
-    const std::string text = obj_text(mesh, metres_per_unit);
-    std::filesystem::path part = file;
-    part += ".part";
-    std::error_code problem;
-    {
-        std::ofstream out(part, std::ios::binary | std::ios::trunc);
-        out.write(text.data(), static_cast<std::streamsize>(text.size()));
-        out.close();
-        if (!out) {
-            std::filesystem::remove(part, problem);
-            throw RunError("cannot write " + part.string());
-        }
-    }
-    std::filesystem::rename(part, file, problem);
-    if (problem) {
-        const std::string reason = problem.message();
-        std::filesystem::remove(part, problem);
-        throw RunError("cannot write " + file.string() + ": " + reason);
-    }
+    write_file(file, obj_text(mesh, metres_per_unit));
 }
 
 }  // namespace risorius::io

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "risorius/core/error.h"
+#include "risorius/core/output_set.h"
 #include "risorius/media/detail/ffmpeg.h"
 #include "risorius/media/detail/temporary_file.h"
 
@@ -70,7 +71,8 @@ void write_exr(const FloatImage& image, const std::filesystem::path& file) {
     check(avcodec_send_frame(exr.codec.get(), exr.frame.get()));
     check(avcodec_send_frame(exr.codec.get(), nullptr));
     check(avcodec_receive_packet(exr.codec.get(), exr.packet.get()));
-    write_whole(file, exr.packet->data, static_cast<std::size_t>(exr.packet->size));
+    write_file(file, {reinterpret_cast<const char*>(exr.packet->data),
+                      static_cast<std::size_t>(exr.packet->size)});
 }
 
 FloatImage read_exr(const std::filesystem::path& file) {

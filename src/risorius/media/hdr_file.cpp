@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/media/hdr_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
 #include <string>
+#include <string_view>
 
 #include "risorius/core/error.h"
+#include "risorius/core/read_file.h"
 
 namespace risorius::media {
 namespace {
 
 constexpr int kMaxSide = 16384;
+constexpr FileKind kHdrPicture{"a Radiance .hdr file", 1000 * kMegabyte};
 
 class RowReader {
   public:
-    RowReader(std::ifstream& in, const std::filesystem::path& file) : in_(in), file_(file) {}
+    RowReader(std::string_view bytes, const std::filesystem::path& file)
+        : bytes_(bytes), file_(file) {}
 
     /// Reads one row of RGBE pixels, run-length encoded by channel or plain.
     void read(std::vector<std::array<std::uint8_t, 4>>& row) {
@@ -45,35 +49,45 @@ class RowReader {
 
   private:
     std::uint8_t next() {
-        const int byte = in_.get();
-        if (byte < 0)
+        if (bytes_.empty())
             throw Error(file_.string(), "pixels of the whole picture", "the end of the file");
+        const char byte = bytes_.front();
+        bytes_.remove_prefix(1);
         return static_cast<std::uint8_t>(byte);
     }
-    std::ifstream& in_;
+    std::string_view bytes_;
     const std::filesystem::path& file_;
 };
 
 }  // namespace
 
 HdrPicture read_hdr(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::string line;
-    std::getline(in, line);
-    if (!in || !line.starts_with("#?"))
+    const std::string bytes = read_file(file, kHdrPicture);
+    std::string_view rest = bytes;
+    const auto next_line = [&rest] {
+        const std::string_view line = rest.substr(0, rest.find('\n'));
+        rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+        return line;
+    };
+    if (!next_line().starts_with("#?"))
         throw Error(file.string(), "a Radiance .hdr file", "another one");
     bool rgbe = false;
-    while (std::getline(in, line) && !line.empty()) rgbe |= line == "FORMAT=32-bit_rle_rgbe";
+    for (std::string_view line = next_line(); !line.empty(); line = next_line())
+        rgbe |= line == "FORMAT=32-bit_rle_rgbe";
     if (!rgbe) throw Error(file.string(), "FORMAT=32-bit_rle_rgbe", "another format");
-    std::getline(in, line);
+    const std::string line(next_line().substr(0, 100));
     HdrPicture picture;
-    if (std::sscanf(line.c_str(), "-Y %d +X %d", &picture.height, &picture.width) != 2 ||
+    if (std::sscanf(line.c_str(), "-Y %9d +X %9d", &picture.height, &picture.width) != 2 ||
         picture.height < 1 || picture.width < 1 || picture.height > kMaxSide ||
         picture.width > kMaxSide)
         throw Error(file.string(), "a size like \"-Y 512 +X 1024\"", "\"" + line + "\"");
 
     std::vector<std::array<std::uint8_t, 4>> row(static_cast<std::size_t>(picture.width));
-    RowReader rows(in, file);
+    // Of the shortest encoding, one byte stands for at most 127 pixels of one channel. A size that the bytes cannot fill takes
+    // no memory.
+    if (static_cast<double>(rest.size()) * 127 < static_cast<double>(row.size()) * picture.height)
+        throw Error(file.string(), "pixels of the whole picture", "the end of the file");
+    RowReader rows(rest, file);
     picture.rgb.reserve(3 * row.size() * static_cast<std::size_t>(picture.height));
     for (int y = 0; y < picture.height; ++y) {
         rows.read(row);

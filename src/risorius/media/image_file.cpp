@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "risorius/core/error.h"
+#include "risorius/core/output_set.h"
 #include "risorius/media/detail/png_samples.h"
 #include "risorius/media/detail/temporary_file.h"
 
@@ -79,7 +80,7 @@ void write_png(const Image& image, const std::filesystem::path& file) {
     png_alloc_size_t size = bytes.size();
     if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, pixels, 0, nullptr))
         throw RunError(file.string() + ": cannot be encoded as PNG: " + png.message);
-    detail::write_whole(file, bytes.data(), size);
+    write_file(file, {reinterpret_cast<const char*>(bytes.data()), size});
 }
 
 void write_png16(const Image& image, const std::filesystem::path& file) {

@@ -24,45 +24,53 @@ void check_ebur128(int code) {
                        std::to_string(code) + ")");
 }
 
+class Meter {
+  public:
+    explicit Meter(const SoundForm& form)
+        : channels_(form.channels),
+          state_(ebur128_init(static_cast<unsigned>(form.channels),
+                              static_cast<unsigned long>(form.rate_hz),
+                              EBUR128_MODE_I | EBUR128_MODE_TRUE_PEAK)) {
+        if (!state_)
+            throw RunError("the loudness of a sound of " + std::to_string(form.channels) +
+                           " channels at " + std::to_string(form.rate_hz) + " Hz is not defined");
+    }
+    void add(const float* samples, std::size_t count) {
+        check_ebur128(ebur128_add_frames_float(state_.get(), samples, count));
+    }
+    Loudness result() const {
+        Loudness out;
+        check_ebur128(ebur128_loudness_global(state_.get(), &out.integrated_lufs));
+        double peak = 0;
+        for (int channel = 0; channel < channels_; ++channel) {
+            double of_channel = 0;
+            check_ebur128(
+                ebur128_true_peak(state_.get(), static_cast<unsigned>(channel), &of_channel));
+            peak = std::max(peak, of_channel);
+        }
+        out.true_peak_dbtp =
+            peak > 0 ? 20 * std::log10(peak) : -std::numeric_limits<double>::infinity();
+        return out;
+    }
+
+  private:
+    int channels_;
+    std::unique_ptr<ebur128_state, Destroy> state_;
+};
+
 }  // namespace
 
 Loudness loudness_of(const Sound& sound) {
-    const std::unique_ptr<ebur128_state, Destroy> state(ebur128_init(
-        static_cast<unsigned>(sound.channels), static_cast<unsigned long>(sound.rate_hz),
-        EBUR128_MODE_I | EBUR128_MODE_TRUE_PEAK));
-    if (!state)
-        throw RunError("the loudness of a sound of " + std::to_string(sound.channels) +
-                       " channels at " + std::to_string(sound.rate_hz) + " Hz is not defined");
-    check_ebur128(ebur128_add_frames_float(state.get(), sound.samples.data(),
-                                           static_cast<std::size_t>(sound.length())));
-    Loudness out;
-    check_ebur128(ebur128_loudness_global(state.get(), &out.integrated_lufs));
-    double peak = 0;
-    for (int channel = 0; channel < sound.channels; ++channel) {
-        double of_channel = 0;
-        check_ebur128(ebur128_true_peak(state.get(), static_cast<unsigned>(channel), &of_channel));
-        peak = std::max(peak, of_channel);
-    }
-    out.true_peak_dbtp =
-        peak > 0 ? 20 * std::log10(peak) : -std::numeric_limits<double>::infinity();
-    return out;
+    Meter meter(sound);
+    meter.add(sound.samples.data(), static_cast<std::size_t>(sound.length()));
+    return meter.result();
 }
 
-Sound heard(const Sound& sound, std::int64_t offset, std::int64_t length) {
-    Sound out = sound;
-    out.samples.assign(static_cast<std::size_t>(length * sound.channels), 0.0f);
-    const std::int64_t begin = std::max<std::int64_t>(0, offset),
-                       end = std::min(length, offset + sound.length());
-    for (std::int64_t i = begin * sound.channels; i < end * sound.channels; ++i)
-        out.samples[static_cast<std::size_t>(i)] =
-            sound.samples[static_cast<std::size_t>(i - offset * sound.channels)];
-    return out;
-}
-
-Sound amplified(Sound sound, double gain_db) {
-    const double factor = std::pow(10, gain_db / 20);
-    for (float& sample : sound.samples) sample = static_cast<float>(factor * sample);
-    return sound;
+Loudness loudness_of(const Recording& recording, std::int64_t offset, std::int64_t length) {
+    Meter meter(recording);
+    for_each_piece(recording, offset, length,
+                   [&](const float* samples, std::size_t count) { meter.add(samples, count); });
+    return meter.result();
 }
 
 }  // namespace risorius::media

@@ -20,12 +20,7 @@ struct Loudness {
 /// Throws RunError for a number of channels or a rate that the standard does not cover.
 Loudness loudness_of(const Sound& sound);
 
-/// Returns the part of a recording that is heard in a video, with silence where the recording does not reach. `offset` is the
-/// number of samples from the first frame to the first sample, `length` is the length of the video; both are in samples of the
-/// recording's own rate.
-Sound heard(const Sound& sound, std::int64_t offset, std::int64_t length);
-
-/// Changes the level by the given number of decibels.
-Sound amplified(Sound sound, double gain_db);
+/// Does the same for the part of a recording that part_of() returns, without holding it in memory.
+Loudness loudness_of(const Recording& recording, std::int64_t offset, std::int64_t length);
 
 }  // namespace risorius::media

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <new>
+#include <optional>
 
 #include "risorius/core/error.h"
+#include "risorius/core/read_file.h"
 #include "risorius/media/detail/ffmpeg.h"
 
 namespace risorius::media {
@@ -86,11 +86,60 @@ Image rgba_of(const AVFrame& picture, const std::string& name) {
     return image;
 }
 
+CodecPtr codec_for(const AVCodec* decoder) {
+    constexpr std::int64_t kMostPixels =
+        300'000'000;  // 16,384 squared, the largest that graphics cards take
+    CodecPtr codec(avcodec_alloc_context3(decoder));
+    if (!codec) throw std::bad_alloc();
+    codec->thread_count = 1;
+    codec->err_recognition = AV_EF_CRCCHECK | AV_EF_EXPLODE;
+    codec->max_pixels = kMostPixels;
+    return codec;
+}
+
+/// The first picture in a packet; null when it holds none.
+FramePtr decoded(AVCodecContext& codec, const AVPacket& packet) {
+    FramePtr picture(av_frame_alloc());
+    if (!picture) throw std::bad_alloc();
+    if (avcodec_send_packet(&codec, &packet) < 0) return nullptr;
+    avcodec_send_packet(&codec, nullptr);
+    if (avcodec_receive_frame(&codec, picture.get()) < 0) return nullptr;
+    return picture;
+}
+
+/// Whether the name ends in "tga", and the header is one: a kind of picture, and the bits of a pixel.
+bool may_be_tga(const std::vector<std::uint8_t>& bytes, const std::string& name) {
+    constexpr std::size_t kHeader = 18;
+    if (bytes.size() <= kHeader || name.size() < 4) return false;
+    std::string ending = name.substr(name.size() - 4);
+    for (char& c : ending) c = static_cast<char>(c | 0x20);
+    const int map = bytes[1], kind = bytes[2] & ~8, bits = bytes[16];
+    return ending == ".tga" && map <= 1 && kind >= 1 && kind <= 3 &&
+           (bits == 8 || bits == 15 || bits == 16 || bits == 24 || bits == 32);
+}
+
+std::optional<Image> read_tga(const std::vector<std::uint8_t>& bytes, const std::string& name) {
+    const AVCodec* decoder = avcodec_find_decoder(AV_CODEC_ID_TARGA);
+    if (!decoder) return std::nullopt;
+    const CodecPtr codec = codec_for(decoder);
+    const PacketPtr packet(av_packet_alloc());
+    if (!packet || av_new_packet(packet.get(), static_cast<int>(bytes.size())) < 0)
+        throw std::bad_alloc();
+    std::memcpy(packet->data, bytes.data(), bytes.size());
+    if (avcodec_open2(codec.get(), decoder, nullptr) < 0) return std::nullopt;
+    const FramePtr picture = decoded(*codec, *packet);
+    if (!picture) return std::nullopt;
+    return rgba_of(*picture, name);
+}
+
 }  // namespace
 
 Image read_picture(const std::vector<std::uint8_t>& bytes, const std::string& name) {
     silence_ffmpeg();
     const Error no_picture(name, kPicture, "another kind of file, or one cut short");
+    // FFmpeg does not know a TGA by its first bytes.
+    if (may_be_tga(bytes, name))
+        if (const auto tga = read_tga(bytes, name)) return *tga;
     const MemoryFile file(bytes);
     AVFormatContext* format = avformat_alloc_context();
     if (!format) throw std::bad_alloc();
@@ -104,29 +153,21 @@ Image read_picture(const std::vector<std::uint8_t>& bytes, const std::string& na
     const AVCodec* decoder = nullptr;
     const int index = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, &decoder, 0);
     if (index < 0 || !decoder) throw no_picture;
-    const CodecPtr codec(avcodec_alloc_context3(decoder));
-    const FramePtr picture(av_frame_alloc());
+    const CodecPtr codec = codec_for(decoder);
     const PacketPtr packet(av_packet_alloc());
-    if (!codec || !picture || !packet) throw std::bad_alloc();
-    codec->thread_count = 1;
-    codec->err_recognition = AV_EF_CRCCHECK | AV_EF_EXPLODE;
+    if (!packet) throw std::bad_alloc();
     if (avcodec_parameters_to_context(codec.get(), format->streams[index]->codecpar) < 0 ||
-        avcodec_open2(codec.get(), decoder, nullptr) < 0 ||
-        av_read_frame(format, packet.get()) < 0 ||
-        avcodec_send_packet(codec.get(), packet.get()) < 0)
+        avcodec_open2(codec.get(), decoder, nullptr) < 0 || av_read_frame(format, packet.get()) < 0)
         throw no_picture;
-    avcodec_send_packet(codec.get(), nullptr);
-    if (avcodec_receive_frame(codec.get(), picture.get()) < 0) throw no_picture;
+    const FramePtr picture = decoded(*codec, *packet);
+    if (!picture) throw no_picture;
     return rgba_of(*picture, name);
 }
 
 Image read_picture(const std::filesystem::path& file) {
-    if (!std::filesystem::is_regular_file(file))
-        throw Error(file.string(), kPicture,
-                    std::filesystem::exists(file) ? "a folder or device" : "no such file");
-    std::ifstream in(file, std::ios::binary);
-    const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
-    return read_picture(bytes, file.string());
+    constexpr FileKind kKind{kPicture, 500 * kMegabyte};
+    check_file(file, kKind);
+    return read_picture(read_bytes(file, kKind), file.string());
 }
 
 }  // namespace risorius::media

@@ -4,10 +4,12 @@
 #include <openssl/evp.h>
 
 #include <array>
-#include <cstdio>
+#include <limits>
 #include <vector>
 
 #include "risorius/core/error.h"
+#include "risorius/core/file_reader.h"
+#include "risorius/core/input_log.h"
 
 namespace risorius::media {
 
@@ -41,20 +43,17 @@ std::string Sha256::finish() {
 }
 
 std::string sha256_of_file(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored))
-        throw Error(file.string(), "a readable file", "no such file");
-    if (std::filesystem::is_directory(file, ignored))
-        throw Error(file.string(), "a readable file", "a folder");
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"),
-                                                             &std::fclose);
-    if (!in) throw Error(file.string(), "a readable file", "one that cannot be opened");
+    const ReadingFormerOutput former;  // what is hashed may be replaced
+    constexpr FileKind kAnyFile{"a readable file", std::numeric_limits<std::uint64_t>::max()};
+    FileReader in(file, kAnyFile);
+    if (!in.is_regular())
+        throw Error(file.string(), "a readable file that is not a pipe", "a pipe");
     Sha256 sha;
     std::vector<char> block(1 << 20);
-    std::size_t got = 0;
-    while ((got = std::fread(block.data(), 1, block.size(), in.get())) > 0)
+    for (std::size_t got = block.size(); got == block.size();) {
+        got = in.read(block.data(), block.size());
         sha.add(block.data(), got);
-    if (std::ferror(in.get())) throw Error(file.string(), "a readable file", "a read error");
+    }
     return sha.finish();
 }
 

@@ -4,17 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "risorius/core/error.h"
+#include "risorius/core/read_file.h"
 #include "risorius/media/detail/ffmpeg.h"
 #include "risorius/media/detail/rgb_pixels.h"
 
 namespace risorius::media {
 
 using namespace detail;
+
+namespace {
+
+constexpr FileKind kVideoFile{"a video file", std::numeric_limits<std::uint64_t>::max()};
+
+}  // namespace
 
 struct VideoReader::Impl {
     std::string name;
@@ -41,9 +49,7 @@ struct VideoReader::Impl {
 void VideoReader::Impl::open(const std::filesystem::path& file) {
     silence_ffmpeg();
     name = file.string();
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) throw Error(name, "a video file", "no such file");
-    if (std::filesystem::is_directory(file, ignored)) throw Error(name, "a video file", "a folder");
+    check_file(file, kVideoFile);
     if (avformat_open_input(&format, ffmpeg_url(name).c_str(), nullptr, nullptr) < 0 ||
         avformat_find_stream_info(format, nullptr) < 0)
         throw Error(name, "a video file", "another kind of file, or one cut short");
@@ -69,13 +75,17 @@ void VideoReader::Impl::open(const std::filesystem::path& file) {
 
 void VideoReader::Impl::read_index() {
     bool damaged = false;
-    while (av_read_frame(format, packet.get()) >= 0) {
+    int code = 0;
+    while ((code = av_read_frame(format, packet.get())) >= 0) {
         if (packet->stream_index == stream->index) {
             damaged = damaged || (packet->flags & AV_PKT_FLAG_CORRUPT);
             stamps.push_back(packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts);
         }
         av_packet_unref(packet.get());
     }
+    // An error of the disk is not the end of the file.
+    if (format->pb && format->pb->error < 0) code = format->pb->error;
+    if (code == AVERROR(EIO)) throw Error(name, "a video file that can be read", ffmpeg_text(code));
     std::sort(stamps.begin(), stamps.end());
 
     // The header is written last and tells the expected size: MP4 the number of frames, Matroska the duration.

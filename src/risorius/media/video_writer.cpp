@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Chooses the form by the target's ending, and keeps everything under a temporary name until finish().
+// Chooses the form by the target's ending, and keeps everything in a private folder until finish().
 #include "risorius/media/video_writer.h"
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "risorius/core/error.h"
+#include "risorius/core/output_set.h"
 #include "risorius/media/detail/encoder.h"
-#include "risorius/media/detail/temporary_file.h"
 #include "risorius/media/detail/video_form.h"
 #include "risorius/media/image_file.h"
 
@@ -68,11 +68,12 @@ void check_target(const fs::path& target, const VideoOptions& options) {
 }
 
 struct VideoWriter::Impl {
-    fs::path target;
+    fs::path target;  ///< as users know it
     VideoOptions options;
     Form form;
     // Declared before the encoder, so that it is removed after the encoder has closed.
-    detail::TemporaryFile temporary;
+    std::optional<OutputSet> own;  ///< none when the target belongs to a set of the caller
+    fs::path path;                 ///< what is written: a file, or a folder of frames
     // Made at the first frame, which shows whether alpha is needed.
     std::unique_ptr<detail::Encoder> encoder;
     bool alpha = false;
@@ -80,7 +81,14 @@ struct VideoWriter::Impl {
     bool finished = false;
 
     Impl(const fs::path& target_, const VideoOptions& options_)
-        : target(target_), options(options_), form(form_of(target_)), temporary(target_) {}
+        : target(shown_output(target_)), options(options_), form(form_of(target_)), path(target_) {
+        if (is_private_output(target_)) {
+            if (form == Form::kFolder) make_folder(path);
+            return;
+        }
+        own.emplace(folder_of_output(target_), OutputSet::Then::kRunGoesOn);
+        path = form == Form::kFolder ? own->folder(target_) : own->file(target_);
+    }
 
     /// The first failed write removes everything at once, so that a full disk has room again before the message.
     template <typename Step>
@@ -90,7 +98,7 @@ struct VideoWriter::Impl {
         } catch (...) {
             encoder.reset();
             std::error_code ignored;
-            fs::remove_all(temporary.path(), ignored);
+            fs::remove_all(path, ignored);
             finished = true;
             throw;
         }
@@ -99,7 +107,7 @@ struct VideoWriter::Impl {
     void append(const Image& frame) {
         const bool transparent = has_transparency(frame);
         if (form == Form::kFolder) {
-            const fs::path file = temporary.path() / frame_name(frames);
+            const fs::path file = path / frame_name(frames);
             if (options.bits.value_or(8) == 16)
                 write_png16(frame, file);
             else
@@ -118,8 +126,8 @@ struct VideoWriter::Impl {
                 told.alpha = true;
                 detail::check_options(target.string(), form, told);
             }
-            encoder = std::make_unique<detail::Encoder>(temporary.path(), target.string(), form,
-                                                        options, alpha);
+            encoder =
+                std::make_unique<detail::Encoder>(path, target.string(), form, options, alpha);
         }
         if (transparent && !alpha)
             throw Error(target.string(), "opaque frames, as the first one was",
@@ -131,11 +139,6 @@ struct VideoWriter::Impl {
 VideoWriter::VideoWriter(const fs::path& target, const VideoOptions& options) {
     check_target(target, options);
     impl_ = std::make_unique<Impl>(target, options);
-    if (impl_->form != Form::kFolder) return;
-    std::error_code failure;
-    fs::create_directory(impl_->temporary.path(), failure);
-    if (failure)
-        throw RunError(target.string() + ": the folder cannot be made: " + failure.message());
 }
 
 VideoWriter::~VideoWriter() = default;
@@ -155,7 +158,8 @@ void VideoWriter::finish() {
     if (impl_->frames == 0) throw RunError(impl_->target.string() + ": a video without frames");
     impl_->run([&] {
         if (impl_->encoder) impl_->encoder->finish();
-        impl_->temporary.replace_target();
+        if (impl_->own) impl_->own->commit();
+        impl_->own.reset();
     });
     impl_->finished = true;
 }

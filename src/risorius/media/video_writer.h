@@ -11,8 +11,8 @@
 /// Colour: the sRGB-encoded values become R'G'B' of BT.709 unchanged, as players assume. Matroska and WebM round times to a
 /// millisecond.
 ///
-/// Everything is written under a temporary name beside the target, which finish() renames. A writer that is abandoned leaves
-/// nothing.
+/// A target below the private folder of an OutputSet is written straight away, and the set decides about it. Any other is a set
+/// of its own, which finish() commits. A writer that is abandoned leaves nothing.
 #pragma once
 
 #include <filesystem>
@@ -40,7 +40,7 @@ struct VideoOptions {
     std::optional<int> bits = {};  ///< of PNG frames, 8 or 16
     bool alpha = false;            ///< frames may be transparent even if the first one is not
     /// The sound of the video. It is cut, or extended with silence, to the length of the video.
-    std::shared_ptr<const Sound> sound = {};
+    std::shared_ptr<const Recording> sound = {};
     /// Number of samples from the first frame to the first sample, at the sound's own rate.
     std::int64_t sound_offset_samples = 0;
 };
@@ -57,7 +57,7 @@ class VideoWriter {
     VideoWriter& operator=(const VideoWriter&) = delete;
 
     void append(const Image& frame);  ///< throws RunError, for instance when the disk is full
-    void finish();                    ///< flushes, closes, renames; throws RunError
+    void finish();                    ///< flushes and closes; throws RunError
     int frames() const;
 
   private:

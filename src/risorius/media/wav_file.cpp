@@ -6,7 +6,7 @@
 #include <cstring>
 #include <string>
 
-#include "risorius/media/detail/temporary_file.h"
+#include "risorius/core/output_set.h"
 
 namespace risorius::media {
 
@@ -45,7 +45,7 @@ void write_wav(const Sound& sound, const std::filesystem::path& file) {
         }
     }
     if (data % 2 != 0) out.push_back(0);
-    detail::write_whole(file, out.data(), out.size());
+    write_file(file, out);
 }
 
 }  // namespace risorius::media

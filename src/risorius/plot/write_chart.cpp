@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_cursor.h"
+#include "risorius/core/output_set.h"
 #include "risorius/plot/detail/chart_script.h"
 #include "risorius/plot/detail/run_gnuplot.h"
 
@@ -60,13 +60,6 @@ void gather(const Chart& chart, std::vector<double>& x, std::vector<double>& y) 
             if (std::isfinite(end) && (!chart.y.logarithmic || end > 0)) y.push_back(end);
 }
 
-void write(const fs::path& file, const std::string& text) {
-    std::ofstream stream(file, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) throw RunError(file.string() + ": cannot be written");
-}
-
 }  // namespace
 
 std::vector<std::string> write_chart(const Chart& chart, const fs::path& folder,
@@ -80,8 +73,8 @@ std::vector<std::string> write_chart(const Chart& chart, const fs::path& folder,
     const AxisLayout x_layout = lay_out(chart.x, x, place + "/x");
     const AxisLayout y_layout = lay_out(chart.y, y, place + "/y");
 
-    write(folder / (chart.name + ".data.csv"), chart_data(chart));
-    write(folder / (chart.name + ".gp"), chart_script(chart, x_layout, y_layout));
+    write_file(folder / (chart.name + ".data.csv"), chart_data(chart));
+    write_file(folder / (chart.name + ".gp"), chart_script(chart, x_layout, y_layout));
     run_gnuplot(writer.gnuplot, chart.name + ".gp", folder);
 
     std::vector<std::string> files;

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/report/atomic_folder.h"
 
-#include <unistd.h>
-
-#include <algorithm>
 #include <set>
 
 #include "risorius/core/error.h"
+#include "risorius/core/input_log.h"
 #include "risorius/core/json_cursor.h"
 
 namespace risorius::report {
@@ -20,6 +18,7 @@ constexpr const char* kExpected =
 
 /// The files that results.json lists; empty when there is no such file.
 std::set<std::string> listed_files(const fs::path& folder) {
+    const ReadingFormerOutput former;
     std::set<std::string> files;
     try {
         const JsonCursor results = JsonCursor::read_file(folder / "results.json");
@@ -42,62 +41,48 @@ void check_replaceable(const fs::path& folder, const std::string& shown) {
         if (!results.contains(file)) throw Error(shown, kExpected, "\"" + file + "\" in it");
 }
 
-/// The absolute path without links, "." and final slash.
-fs::path canonical_folder(const fs::path& folder) {
-    fs::path path = fs::weakly_canonical(fs::absolute(folder)).lexically_normal();
-    if (!path.has_filename()) path = path.parent_path();
-    return path;
-}
-
 }  // namespace
 
-AtomicFolder::AtomicFolder(const fs::path& folder) {
+void check_results_folder(const fs::path& folder) {
     try {
-        folder_ = canonical_folder(folder);
-        check_replaceable(folder_, folder.string());
-        const std::string mark = std::to_string(::getpid());
-        partial_ = folder_.parent_path() / ("." + folder_.filename().string() + ".part-" + mark);
-        for (fs::path parent = folder_.parent_path(); !fs::exists(parent);
-             parent = parent.parent_path())
-            made_.insert(made_.begin(), parent);
-        fs::create_directories(partial_);
+        check_replaceable(folder, folder.string());
     } catch (const fs::filesystem_error& failure) {
-        for (auto parent = made_.rbegin(); parent != made_.rend(); ++parent) {
-            std::error_code ignored;
-            fs::remove(*parent, ignored);
-        }
         throw Error(folder.string(), "a folder that can be written", failure.code().message());
     }
 }
 
-AtomicFolder::~AtomicFolder() {
-    if (committed_) return;
-    std::error_code ignored;
-    fs::remove_all(partial_, ignored);
-    for (auto parent = made_.rbegin(); parent != made_.rend(); ++parent)
-        fs::remove(*parent, ignored);  // fails for a folder that is not empty, as intended
+fs::path real_results_folder(const fs::path& folder) {
+    std::error_code failure;
+    fs::path path = fs::weakly_canonical(fs::absolute(folder), failure).lexically_normal();
+    if (failure) throw Error(folder.string(), "a folder that can be written", failure.message());
+    if (!path.has_filename()) path = path.parent_path();
+    return path;
+}
+
+AtomicFolder::AtomicFolder(const fs::path& folder, OutputSet::Then then)
+    : folder_(folder), partial_(folder) {
+    if (is_private_output(folder)) {
+        make_folder(folder);
+        return;
+    }
+    check_results_folder(folder);
+    const fs::path real = real_results_folder(folder);
+    try {
+        own_.emplace(real.parent_path(), then);
+        partial_ = own_->folder(real);
+    } catch (const RunError& failure) {
+        const std::string message = failure.what();
+        throw Error(folder.string(), "a folder that can be written",
+                    message.substr(message.rfind(": ") + 2));
+    }
 }
 
 void AtomicFolder::commit() {
+    if (!own_) return;
     // Checked again, because a run may take minutes.
-    check_replaceable(folder_, folder_.string());
-    fs::path former = partial_;
-    former += ".former";
-    try {
-        const bool replaces = fs::exists(folder_);
-        if (replaces) fs::rename(folder_, former);
-        try {
-            fs::rename(partial_, folder_);
-        } catch (const fs::filesystem_error&) {
-            if (replaces) fs::rename(former, folder_);
-            throw;
-        }
-    } catch (const fs::filesystem_error& failure) {
-        throw RunError(folder_.string() + ": cannot be written: " + failure.code().message());
-    }
-    committed_ = true;
-    std::error_code ignored;
-    fs::remove_all(former, ignored);
+    check_results_folder(folder_);
+    own_->commit();
+    own_.reset();
 }
 
 }  // namespace risorius::report

@@ -2,12 +2,13 @@
 #include "risorius/rig/rig_description.h"
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/data_folder.h"
 #include "risorius/core/existing_file.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/output_set.h"
 #include "risorius/rig/calibration.h"
 
 namespace risorius::rig {
@@ -296,8 +297,9 @@ RigDescription read_rig(const std::filesystem::path& file) {
 
 void write_rig(const RigDescription& rig, const std::filesystem::path& file,
                const RigWriteOptions& options) {
+    const std::filesystem::path& place = options.place.empty() ? file : options.place;
     const std::filesystem::path folder =
-        file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+        place.has_parent_path() ? place.parent_path() : std::filesystem::path(".");
     const auto relative = [&](const std::filesystem::path& path) {
         return std::filesystem::proximate(std::filesystem::absolute(path),
                                           std::filesystem::absolute(folder))
@@ -351,18 +353,7 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
                                     ? Json(read_calibration(JsonCursor::read_file(source)))
                                     : Json(relative(source));
 
-    const std::filesystem::path partial = file.string() + ".part";
-    {
-        std::ofstream stream(partial, std::ios::binary);
-        stream << json.dump(1, ' ') << "\n";
-        stream.flush();
-        if (!stream) {
-            std::error_code ignored;
-            std::filesystem::remove(partial, ignored);
-            throw RunError(file.string() + ": cannot be written");
-        }
-    }
-    std::filesystem::rename(partial, file);
+    write_file(file, json_text(json, 1) + "\n");
 }
 
 }  // namespace risorius::rig

@@ -154,6 +154,8 @@ RigDescription read_rig(const std::filesystem::path& file);
 struct RigWriteOptions {
     std::filesystem::path standard_folder;  ///< folder of muscles.json, facs.json, ...
     bool inline_tables = true;
+    /// Where the file will be, when `file` is the path that an OutputSet has given; relative paths begin there.
+    std::filesystem::path place{};
 };
 void write_rig(const RigDescription& rig, const std::filesystem::path& file,
                const RigWriteOptions& options);

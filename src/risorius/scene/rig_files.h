@@ -25,7 +25,8 @@ struct RigFiles {
 RigFiles read_rig_files(const std::filesystem::path& rig_file);
 
 /// Checks the outer skin by geom::check_mesh(); other parts of the mesh need not be manifold. Throws Error; the message names the
-/// mesh file.
-geom::MeshReport check_skin(const rig::RigDescription& rig, const geom::PolygonMesh& mesh);
+/// mesh file, and ends with `advice` when geom::repair_mesh() can mend what is wrong.
+geom::MeshReport check_skin(const rig::RigDescription& rig, const geom::PolygonMesh& mesh,
+                            const std::string& advice = "");
 
 }  // namespace risorius::scene

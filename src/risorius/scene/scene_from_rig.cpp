@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "risorius/core/error.h"
 #include "risorius/face/anatomy/lids.h"
 #include "risorius/scene/detail/texture_picture.h"
 
@@ -97,7 +98,12 @@ class TexturePictures {
     int index_of(int texture) {
         const auto t = static_cast<std::size_t>(texture);
         if (index_[t] != kUnread) return index_[t];
-        images_.push_back(read_texture(mesh_.textures[t]));
+        try {
+            images_.push_back(read_texture(mesh_.textures[t]));
+        } catch (const Error&) {
+            // picture_problems() says so; the surface has the colours of the look.
+            return index_[t] = -1;
+        }
         return index_[t] = static_cast<int>(images_.size()) - 1;
     }
 
@@ -109,6 +115,21 @@ class TexturePictures {
 };
 
 }  // namespace
+
+std::vector<std::string> picture_problems(const geom::PolygonMesh& mesh) {
+    constexpr std::size_t kMost = 20;
+    std::vector<std::string> out;
+    for (const geom::Texture& texture : mesh.textures) {
+        if (out.size() == kMost) break;
+        try {
+            read_texture(texture);
+        } catch (const Error& error) {
+            out.push_back(std::string(error.what()) +
+                          "; what it would colour has the colours of the look");
+        }
+    }
+    return out;
+}
 
 render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& rig,
                              const geom::PolygonMesh& mesh) {

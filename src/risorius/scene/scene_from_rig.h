@@ -3,6 +3,9 @@
 /// Makes the scene for the renderer, and the pose of a frame, from a head and its face.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "risorius/face/surfaces.h"
 #include "risorius/face/view/skull.h"
 #include "risorius/geom/polygon_mesh.h"
@@ -12,7 +15,10 @@
 
 namespace risorius::scene {
 
-/// Returns the scene of a head. Throws Error when a texture cannot be read.
+/// Says which pictures of a mesh cannot be had or read, and why.
+std::vector<std::string> picture_problems(const geom::PolygonMesh& mesh);
+
+/// Returns the scene of a head. Where a picture cannot be had, the surface has the colours of the look.
 render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& rig,
                              const geom::PolygonMesh& mesh);
 

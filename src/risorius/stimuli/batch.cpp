@@ -4,16 +4,20 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "risorius/core/error.h"
+#include "risorius/core/output_set.h"
+#include "risorius/core/parallel.h"
 #include "risorius/design/conditions.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/stimuli/detail/experiment_files.h"
 #include "risorius/stimuli/detail/luminance_match.h"
+#include "risorius/stimuli/detail/own_files.h"
 #include "risorius/stimuli/detail/stimulus_set.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
 
@@ -41,10 +45,11 @@ void for_each(std::size_t count, int workers,
             next = count;
         }
     };
-    std::vector<std::thread> threads;
-    for (int t = 1; t < workers; ++t) threads.emplace_back(work);
-    work();
-    for (std::thread& thread : threads) thread.join();
+    {
+        std::vector<std::jthread> threads;
+        for (int t = 1; t < workers && add_thread(threads, work);) ++t;
+        work();
+    }
     if (failure) std::rethrow_exception(failure);
 }
 
@@ -83,17 +88,6 @@ void note_twins(BatchPlan& plan) {
 }
 
 }  // namespace
-
-void check_batch_folder(const fs::path& out) {
-    if (!fs::exists(out)) return;
-    if (!fs::is_directory(out)) throw Error(out.string(), "a folder, or nothing yet", "a file");
-    const char* const begun[] = {"dataset_description.json", "code", "stimuli",
-                                 kIntermediateFolders[0], kIntermediateFolders[1]};
-    const auto is_there = [&](const char* name) { return fs::exists(out / name); };
-    if (!fs::is_empty(out) && std::none_of(std::begin(begun), std::end(begun), is_there))
-        throw Error(out.string(), "an empty folder, or one that `batch` has begun",
-                    "a folder with other files");
-}
 
 double BatchPlan::seconds() const {
     double sum = 0;
@@ -159,6 +153,17 @@ class BatchRun {
         return static_cast<int>(index % static_cast<std::size_t>(options_.parts)) + 1 ==
                options_.part;
     }
+    /// The names of what this part of the batch makes, for OutputSet::claim().
+    std::vector<std::string> names_of(const BatchPlan& plan) const {
+        std::vector<std::string> names;
+        for (std::size_t i = 0; i < plan.clips.size(); ++i) {
+            const ClipPlan& clip = plan.clips[i];
+            if (is_mine(i)) names.push_back("clip " + clip.condition.clip);
+            if (plan.match.luminance && !clip.is_control() && is_mine(clip.condition_number))
+                names.push_back("render of " + clip.condition.clip);
+        }
+        return names;
+    }
     void report(const ClipPlan& clip, const char* state, const std::string& why = {}) const {
         if (options_.report_clip) options_.report_clip(clip.condition.clip, state, why);
     }
@@ -212,15 +217,31 @@ class BatchRun {
     double left_s_ = 0;  ///< estimated time of the remaining clips
 };
 
+/// Writes the files of the set. The last two parts may come to this at the same time; then one waits for the other.
+void write_set_after_others(const BatchPlan& plan, const BatchOptions& options,
+                            const ProgressMonitor& monitor) {
+    for (;;) {
+        try {
+            return write_set(plan, options.design, options.out, monitor);
+        } catch (const OutputInUse&) {
+            monitor.throw_if_stopped();
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+    }
+}
+
 }  // namespace
 
 BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monitor) {
     const report::Stopwatch time;
     BatchPlan plan = plan_batch(options.design);
-    check_batch_folder(options.out);
+    check_own_folder(options.out);
     BatchReport report;
     report.name = plan.name;
     BatchRun run(options, monitor, *plan.inputs, report);
+    // Two runs may share a folder, but not a clip.
+    OutputSet claims(options.out, OutputSet::Then::kRunGoesOn);
+    claims.claim(run.names_of(plan));
 
     // Luminance is matched over the whole set, so all conditions are rendered before the first clip is made.
     if (plan.match.luminance) {
@@ -256,7 +277,7 @@ BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monit
     // Write the files of the whole set.
     if (report.failed.empty() && report.elsewhere == 0) {
         monitor.report(1, "the files of the set");
-        write_set(plan, options.design, options.out);
+        write_set_after_others(plan, options, monitor);
         report.complete = true;
     }
     report.seconds = time.seconds();

@@ -50,9 +50,6 @@ struct BatchPlan {
 /// Reads the design, crosses its factors and checks every clip. Renders nothing. Throws Error for a wrong design.
 BatchPlan plan_batch(const std::filesystem::path& design);
 
-/// Throws Error unless the folder is new, empty or one that a batch has begun.
-void check_batch_folder(const std::filesystem::path& out);
-
 /// The result of make_batch(): numbers of clips and conditions.
 struct BatchReport {
     std::string name;

@@ -3,17 +3,20 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/output_set.h"
+#include "risorius/core/text_lines.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/run_program.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/stimuli/detail/luminance_match.h"
+#include "risorius/stimuli/detail/own_files.h"
 #include "risorius/stimuli/detail/stimulus_set.h"
 
 namespace risorius::stimuli {
@@ -86,17 +89,24 @@ class Job {
     std::string id_;
 };
 
+constexpr FileKind kTaskLog{"the log of a task", 256 * kMegabyte};
+
 /// Adds the messages of failed clips from the logs of the tasks.
 void add_failures(const fs::path& code, std::vector<std::pair<std::string, std::string>>& failed) {
     for (auto& [clip, why] : failed)
         for (const auto& entry : fs::directory_iterator(code)) {
             if (entry.path().extension() != ".log") continue;
-            std::ifstream in(entry.path());
-            for (std::string line; std::getline(in, line);) {
-                const Json event = Json::parse(line, nullptr, false);
-                if (event.is_object() && event.value("event", "") == "failed" &&
-                    event.value("stim_id", "") == clip)
-                    why = event.value("why", "");
+            const std::string log = read_file(entry.path(), kTaskLog);
+            for (TextLines lines(log); lines.next();) {
+                const Json event = json_or_null(lines.line());
+                const auto says = [&](const char* key, const std::string& what) {
+                    const auto found = event.find(key);
+                    return found != event.end() && *found == what;
+                };
+                if (!event.is_object() || !says("event", "failed") || !says("stim_id", clip))
+                    continue;
+                const auto said = event.find("why");
+                if (said != event.end() && said->is_string()) why = said->get<std::string>();
             }
         }
 }
@@ -105,8 +115,7 @@ void add_failures(const fs::path& code, std::vector<std::pair<std::string, std::
 std::string slurm_script(const BatchOptions& batch, const SlurmOptions& slurm, int tasks) {
     // Where the part stands, the shell puts the number of the task.
     const std::string part = "TASK/" + std::to_string(tasks);
-    std::string script =
-        "#!/bin/sh\n# A part of a stimulus set, made by one task of a job array.\nexec";
+    std::string script = "#!/bin/sh\n" + std::string(kJobScriptMark) + "\nexec";
     for (const std::string& word : slurm.part_command(fs::absolute(batch.design),
                                                       fs::absolute(batch.out), slurm.workers, part))
         script += " " + (word == part ? "\"$SLURM_ARRAY_TASK_ID/" + std::to_string(tasks) + "\""
@@ -139,10 +148,11 @@ class Rounds {
                 while (job.goes_on()) {
                     monitor_.report(1 - static_cast<double>(missing.size()) / all,
                                     std::to_string(missing.size()) + " " + what + " left");
-                    std::this_thread::sleep_for(kBetweenQueries);
+                    wait(kBetweenQueries);
                     missing = find_missing();
                 }
             } catch (const Interrupted&) {
+                const UninterruptedStep step;
                 job.cancel();
                 throw;
             }
@@ -152,6 +162,15 @@ class Rounds {
     }
 
   private:
+    /// Throws Interrupted soon after the run was asked to stop.
+    void wait(std::chrono::milliseconds time) const {
+        constexpr auto kPause = std::chrono::milliseconds(50);
+        for (; time.count() > 0; time -= kPause) {
+            monitor_.throw_if_stopped();
+            std::this_thread::sleep_for(kPause);
+        }
+    }
+
     const BatchOptions& batch_;
     const SlurmOptions& slurm_;
     int tasks_;
@@ -165,7 +184,7 @@ BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& s
                                 const ProgressMonitor& monitor) {
     const report::Stopwatch time;
     BatchPlan plan = plan_batch(batch.design);
-    check_batch_folder(batch.out);
+    check_own_folder(batch.out);
     BatchReport report;
     report.name = plan.name;
     const int tasks = std::clamp(slurm.tasks, 1, static_cast<int>(plan.clips.size()));
@@ -213,7 +232,7 @@ BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& s
     if (report.failed.empty()) {
         for (const auto& entry : fs::directory_iterator(batch.out / "code"))
             if (entry.path().filename().string().rfind("slurm", 0) == 0) fs::remove(entry.path());
-        write_set(plan, batch.design, batch.out);
+        write_set(plan, batch.design, batch.out, monitor);
         report.complete = true;
     }
     report.seconds = time.seconds();

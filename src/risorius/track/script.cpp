@@ -443,7 +443,9 @@ ScriptDescription read_script(const JsonCursor& json, const ChannelTable& channe
         for (const std::string& name : table->keys())
             script.channels.push_back(reader.channel(table->at(name), name));
     if (const auto emg = json.find("emg")) {
-        script.emg = read_emg(*emg, channels);
+        EmgTracks read = read_emg(*emg, channels, script.header.duration_s);
+        script.emg = std::move(read.tracks);
+        script.notes = std::move(read.notes);
         script.recordings.push_back(existing_file(emg->at("file")));
     }
     if (const auto events = json.find("events")) {

@@ -120,6 +120,7 @@ struct ScriptDescription {
     std::array<double, 2> late_s{0, 0};  ///< delay of all muscles of a side, [0, 10]
     /// Files that were read besides the script itself.
     std::vector<std::filesystem::path> recordings;
+    std::vector<std::string> notes;  ///< about recordings: what was bridged, what is never played
 };
 
 /// Reads only the header, without channels and events. Throws Error.

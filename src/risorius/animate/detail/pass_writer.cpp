@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_text.h"
 #include "risorius/media/float_image.h"
 #include "risorius/media/image_file.h"
 #include "risorius/report/atomic_file.h"
@@ -121,7 +122,7 @@ void PassWriter::commit() {
     }
     files_.push_back("results.json");
     json[report::kFilesKey] = files_;
-    report::write_text(folder_.partial() / "results.json", json.dump(1) + "\n");
+    report::write_text(folder_.partial() / "results.json", json_text(json, 1) + "\n");
     folder_.commit();
 }
 

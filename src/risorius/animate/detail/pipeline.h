@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "risorius/core/parallel.h"
+
 namespace risorius::animate {
 
 /// Limit of the number of items that are produced and not yet consumed, in addition to one per worker.
@@ -26,10 +28,10 @@ template <typename Produce, typename Transform, typename Consume>
 void run_pipeline(int count, int workers, Produce produce, Transform transform, Consume consume) {
     using Item = decltype(produce(0));
     using Result = decltype(transform(0, 0, produce(0)));
-    if (workers < 1) {
+    const auto run_alone = [&] {
         for (int i = 0; i < count; ++i) consume(i, transform(0, i, produce(i)));
-        return;
-    }
+    };
+    if (workers < 1) return run_alone();
     std::mutex mutex;
     std::condition_variable changed;
     std::deque<std::pair<int, Item>> produced;
@@ -43,9 +45,18 @@ void run_pipeline(int count, int workers, Produce produce, Transform transform, 
         if (!failure) failure = std::current_exception();
         stop = true;
     };
-    std::vector<std::thread> threads;
+    std::vector<std::jthread> threads;
+    const auto change = [&](const auto& what) {
+        {
+            const std::lock_guard lock(mutex);
+            what();
+        }
+        changed.notify_all();
+    };
+    bool consumes = false;
+    int transforming = 0;
     for (int worker = 0; worker < workers; ++worker)
-        threads.emplace_back([&, worker] {
+        transforming += add_thread(threads, [&, worker] {
             try {
                 for (;;) {
                     std::optional<std::pair<int, Item>> item;
@@ -58,18 +69,14 @@ void run_pipeline(int count, int workers, Produce produce, Transform transform, 
                         produced.pop_front();
                     }
                     Result result = transform(worker, item->first, std::move(item->second));
-                    {
-                        const std::lock_guard lock(mutex);
-                        ready.emplace(item->first, std::move(result));
-                    }
-                    changed.notify_all();
+                    change([&] { ready.emplace(item->first, std::move(result)); });
                 }
             } catch (...) {
                 fail();
             }
             changed.notify_all();
         });
-    threads.emplace_back([&] {
+    consumes = add_thread(threads, [&] {
         try {
             for (int i = 0; i < count; ++i) {
                 std::optional<Result> result;
@@ -80,11 +87,7 @@ void run_pipeline(int count, int workers, Produce produce, Transform transform, 
                     result.emplace(std::move(ready.extract(i).mapped()));
                 }
                 consume(i, std::move(*result));
-                {
-                    const std::lock_guard lock(mutex);
-                    ++consumed;
-                }
-                changed.notify_all();
+                change([&] { ++consumed; });
             }
         } catch (...) {
             fail();
@@ -92,6 +95,11 @@ void run_pipeline(int count, int workers, Produce produce, Transform transform, 
         changed.notify_all();
     });
 
+    if (!consumes || transforming == 0) {
+        change([&] { stop = true; });  // the system has no threads for us
+        threads.clear();
+        return run_alone();
+    }
     try {
         for (int i = 0; i < count; ++i) {
             {
@@ -100,21 +108,13 @@ void run_pipeline(int count, int workers, Produce produce, Transform transform, 
                 if (stop) break;
             }
             Item item = produce(i);
-            {
-                const std::lock_guard lock(mutex);
-                produced.emplace_back(i, std::move(item));
-            }
-            changed.notify_all();
+            change([&] { produced.emplace_back(i, std::move(item)); });
         }
     } catch (...) {
         fail();
     }
-    {
-        const std::lock_guard lock(mutex);
-        all_produced = true;
-    }
-    changed.notify_all();
-    for (std::thread& thread : threads) thread.join();
+    change([&] { all_produced = true; });
+    threads.clear();
     if (failure) std::rethrow_exception(failure);
 }
 

@@ -77,6 +77,7 @@ Json RunRecord::json() const {
                       {"largest_muscle_volume_error", solver.max_muscle_volume_error},
                       {"most_inverted_tets", solver.max_inverted_tets}};
     json["frames_sha256"] = frames_sha256;
+    if (!out_sha256.empty()) json["out_sha256"] = out_sha256;
     json["warnings"] = warnings;
     json["timing"] = {{"threads", timing.threads},       {"build_s", timing.build_s},
                       {"simulate_s", timing.simulate_s}, {"draw_s", timing.draw_s},

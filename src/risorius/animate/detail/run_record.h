@@ -62,6 +62,7 @@ struct RunRecord {
     double max_tooth_force_n = 0;   ///< on all teeth together, when muscles move the jaw
     int nodes = 0, tets = 0, dropped_tets = 0, fibres = 0;
     SolverStats solver;
+    std::string out_sha256;     ///< of the file OUT; empty for a folder of frames
     std::string frames_sha256;  ///< of the RGBA bytes of all frames, before encoding
     std::vector<std::string> warnings;
     RunTiming timing;

@@ -2,13 +2,14 @@
 #include "risorius/blendshapes/detail/shape_files.h"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "risorius/blendshapes/detail/corrective_drivers.h"
 #include "risorius/blendshapes/detail/shape_correctives.h"
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/output_set.h"
 #include "risorius/io/read_mesh.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/folder_name.h"
@@ -167,7 +168,7 @@ std::vector<std::string> write_shape_table(const scene::RigFiles& files, const r
               {"excitations", Json::object()},
               {"on_top_of", Json::object()},
               {"source", "risorius shapes, rig " + files.rig.name}};
-    std::ofstream numbers(folder / "shapes.f32", std::ios::binary);
+    std::string numbers;
     for (const MadeShape& made : shapes.list) {
         json["names"].push_back(made.goal.name);
         json["excitations"][made.goal.name] = rig::drive_json(made.goal.drive, channels);
@@ -181,12 +182,10 @@ std::vector<std::string> write_shape_table(const scene::RigFiles& files, const r
                 field[3 * static_cast<std::size_t>(made.shape.vertex[i]) + k] =
                     static_cast<float>(delta[static_cast<long>(k)]);
         }
-        numbers.write(reinterpret_cast<const char*>(field.data()),
-                      static_cast<std::streamsize>(field.size() * sizeof(float)));
+        numbers.append(reinterpret_cast<const char*>(field.data()), field.size() * sizeof(float));
     }
-    numbers.close();
-    if (!numbers) throw RunError("cannot write " + (folder / "shapes.f32").string());
-    report::write_text(folder / "shapes.json", json.dump(1) + "\n");
+    write_file(folder / "shapes.f32", numbers);
+    report::write_text(folder / "shapes.json", json_text(json, 1) + "\n");
     return {"shapes.json", "shapes.f32"};
 }
 
@@ -194,7 +193,7 @@ std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const 
                                             const blendshapes::BlendShapeRig& linear,
                                             const ShapeAnimation& animation,
                                             const std::filesystem::path& folder) {
-    std::ofstream numbers(folder / "cache.f32", std::ios::binary);
+    std::string numbers;
     std::vector<float> frame(3 * static_cast<std::size_t>(head.vertices.rows()));
     for (long f = 0; f < animation.weights.rows(); ++f) {
         Points moved = Points::Zero(head.vertices.rows(), 3);
@@ -206,11 +205,9 @@ std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const 
             for (long k = 0; k < 3; ++k)
                 frame[static_cast<std::size_t>(3 * v + k)] = static_cast<float>(at[k]);
         }
-        numbers.write(reinterpret_cast<const char*>(frame.data()),
-                      static_cast<std::streamsize>(frame.size() * sizeof(float)));
+        numbers.append(reinterpret_cast<const char*>(frame.data()), frame.size() * sizeof(float));
     }
-    numbers.close();
-    if (!numbers) throw RunError("cannot write " + (folder / "cache.f32").string());
+    write_file(folder / "cache.f32", numbers);
     const Json json{{"format", "risorius-vertex-cache"},
                     {"version", 1},
                     {"shape", {animation.weights.rows(), head.vertices.rows(), 3}},
@@ -219,7 +216,7 @@ std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const 
                     {"file", "cache.f32"},
                     {"fps", animation.fps},
                     {"units_per_metre", 1 / head.frame.metres_per_unit}};
-    report::write_text(folder / "cache.json", json.dump(1) + "\n");
+    report::write_text(folder / "cache.json", json_text(json, 1) + "\n");
     return {"cache.json", "cache.f32"};
 }
 

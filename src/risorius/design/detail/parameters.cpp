@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/design/detail/arithmetic.h"
 
@@ -21,7 +22,7 @@ std::string text_of(const Json& value) {
     if (value.is_number()) return format_number(value.get<double>());
     if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
     if (value.is_null()) return "none";
-    return value.dump();
+    return json_text(value);
 }
 
 using ValueOf = std::function<const Json&(const std::string& name, const std::string& place)>;
@@ -84,7 +85,7 @@ Json fill(const JsonCursor& value, const ValueOf& value_of) {
             const Json& found = value_of(name, value.place());
             if (!found.is_number())
                 throw Error(value.place(), "a number for " + risorius::in_quotes(name),
-                            found.dump());
+                            json_text(found));
             return found.get<double>();
         }));
     return fill_text(text, value.place(), value_of);

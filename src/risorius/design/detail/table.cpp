@@ -3,21 +3,22 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "risorius/core/error.h"
+#include "risorius/core/text_lines.h"
 
 namespace risorius::design {
 
 namespace {
 
+constexpr FileKind kTable{"a table of conditions", 100 * kMegabyte};
+
 /// The cells of a file, by rows. A cell in double quotes may contain the separator, line breaks, and quotes that are written twice.
 std::vector<std::pair<int, std::vector<std::string>>> cells_of(const std::string& text,
                                                                const std::string& place) {
-    const std::size_t first_end = text.find('\n');
+    const std::size_t first_end = text.find_first_of("\r\n");
     const char separator = text.substr(0, first_end).find('\t') != std::string::npos ? '\t' : ',';
     std::vector<std::pair<int, std::vector<std::string>>> rows;
     std::vector<std::string> row;
@@ -46,10 +47,11 @@ std::vector<std::pair<int, std::vector<std::string>>> cells_of(const std::string
         } else if (c == separator) {
             row.push_back(std::move(cell));
             cell.clear();
-        } else if (c == '\n') {
+        } else if (c == '\n' || c == '\r') {
+            if (c == '\r' && i + 1 < text.size() && text[i + 1] == '\n') ++i;
             end_row();
             ++line;
-        } else if (c != '\r') {
+        } else {
             cell += c;
         }
     }
@@ -73,13 +75,7 @@ Json value_of(const std::string& cell) {
 }  // namespace
 
 std::vector<std::vector<Given>> read_table(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw Error(file.string(), "a readable table of conditions", "none");
-    std::ostringstream all;
-    all << in.rdbuf();
-    std::string text = all.str();
-    if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
-    const auto rows = cells_of(text, file.string());
+    const auto rows = cells_of(read_text(file, kTable), file.string());
     if (rows.size() < 2)
         throw Error(file.string(), "a row of names and a row for every condition",
                     std::to_string(rows.size()) + (rows.size() == 1 ? " row" : " rows"));

@@ -43,6 +43,7 @@ std::size_t method_named(const Plan& plan, const JsonCursor& json) {
 
 Plan read_plan(const JsonCursor& experiment) {
     Plan plan;
+    experiment.at("body").keys();  // must be an object
     for (const JsonCursor& grid : experiment.at("grids").items()) {
         Json body = experiment.at("body").json();
         body["grid"] = grid.json();

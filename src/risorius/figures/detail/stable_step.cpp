@@ -25,6 +25,18 @@ struct Sweep {
     StepSearch search;
 };
 
+/// Whether there is a value at `pointer`, or an object that can have it.
+bool is_within(const Json::json_pointer& pointer, const Json& body) {
+    if (pointer.empty()) return false;
+    try {
+        if (body.contains(pointer)) return true;
+        const Json::json_pointer parent = pointer.parent_pointer();
+        return body.contains(parent) && body.at(parent).is_object();
+    } catch (const Json::exception&) {  // an index that is no number
+        return false;
+    }
+}
+
 Sweep read_sweep(const JsonCursor& experiment) {
     Sweep sweep;
     sweep.methods = read_fixed_step_methods(experiment.at("methods"));
@@ -43,11 +55,8 @@ Sweep read_sweep(const JsonCursor& experiment) {
     for (const JsonCursor& value : varied.at("values").items()) {
         sweep.values.push_back(value.number());
         Json body = experiment.at("body").json();
-        try {
-            body[pointer] = value.json();
-        } catch (const Json::exception&) {
-            pointer_json.fail("a JSON pointer within the body");
-        }
+        if (!is_within(pointer, body)) pointer_json.fail("a JSON pointer within the body");
+        body[pointer] = value.json();
         const std::string file = experiment.file().string() + " (" + sweep.name + " = " +
                                  format_number(value.number()) + ")";
         sweep.bodies.push_back(

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "risorius/core/json_text.h"
 #include "risorius/figures/detail/body_cases.h"
 #include "risorius/figures/detail/progress.h"
 
@@ -136,7 +137,7 @@ void run_volume_history(const JsonCursor& experiment, const RunOptions& options,
     const std::function<Histories()> run = [&] { return record_all(runs, times, options); };
     std::string key = "volume-history";
     for (const char* part : {"body", "runs", "duration_s", "sample_s"})
-        key += experiment.at(part).json().dump();
+        key += json_text(experiment.at(part).json());
     const std::shared_ptr<const Histories> histories =
         options.shared ? options.shared->get<Histories>(key, run)
                        : std::make_shared<const Histories>(run());

@@ -42,6 +42,41 @@ std::string quoted_list(const std::vector<std::string>& ids) {
     return out;
 }
 
+std::vector<std::string> take_file_coordinates(std::map<std::string, rig::Landmark>& landmarks,
+                                               const geom::PolygonMesh& mesh,
+                                               const fs::path& mesh_file, const fs::path& file) {
+    if (!mesh.in_file_order)
+        for (const auto& [id, landmark] : landmarks)
+            if (landmark.vertex >= 0)
+                throw Error(file.string() + ":/landmarks/" + id,
+                            "\"xyz\", because vertices of a " + mesh_file.extension().string() +
+                                " file are not read in the order of the file",
+                            "vertex " + std::to_string(landmark.vertex));
+    if (mesh.from_file.isIdentity(0)) return {};
+    // Points may also be those of the mesh in metres.
+    const Vec3 low = mesh.positions.colwise().minCoeff().transpose(),
+               high = mesh.positions.colwise().maxCoeff().transpose(), margin = 0.1 * (high - low);
+    const auto converted = [&](const Vec3& p) -> Vec3 {
+        return (mesh.from_file * p.homogeneous()).head<3>();
+    };
+    int inside = 0;
+    for (const auto& [id, landmark] : landmarks) {
+        if (landmark.vertex >= 0) continue;
+        const auto is_inside = [&](const Vec3& p) {
+            return ((p - low + margin).array() >= 0).all() &&
+                   ((high + margin - p).array() >= 0).all();
+        };
+        inside += static_cast<int>(is_inside(converted(landmark.xyz))) -
+                  static_cast<int>(is_inside(landmark.xyz));
+    }
+    if (inside < 0)
+        return {"landmarks are taken in metres and with y up, not in the unit and axes that " +
+                mesh_file.filename().string() + " states"};
+    for (auto& [id, landmark] : landmarks)
+        if (landmark.vertex < 0) landmark.xyz = converted(landmark.xyz);
+    return {};
+}
+
 LandmarkPositions landmark_positions(const rig::RigDescription& rig, const geom::PolygonMesh& mesh,
                                      const fs::path& file) {
     const std::string place = file.string() + ":/landmarks";

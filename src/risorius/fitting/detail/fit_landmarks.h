@@ -22,6 +22,13 @@ using LandmarkPositions = std::map<std::string, Vec3>;
 /// Returns a list of ids in quotes for messages: "ch_l" "ch_r".
 std::string quoted_list(const std::vector<std::string>& ids);
 
+/// Converts points that are given in coordinates of the mesh's file, which may state a unit and axes (FBX, COLLADA), to those of
+/// the mesh as it was read. Returns messages. Throws Error for numbers of vertices when the mesh is not in the order of its file.
+std::vector<std::string> take_file_coordinates(std::map<std::string, rig::Landmark>& landmarks,
+                                               const geom::PolygonMesh& mesh,
+                                               const std::filesystem::path& mesh_file,
+                                               const std::filesystem::path& file);
+
 /// Returns the positions of the rig's landmarks. Throws Error when a required one is missing.
 LandmarkPositions landmark_positions(const rig::RigDescription& rig, const geom::PolygonMesh& mesh,
                                      const std::filesystem::path& file);

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_text.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/atomic_folder.h"
 #include "risorius/report/html_writer.h"
@@ -112,7 +113,7 @@ void write_fit_report(const FitReport& report, const rig::RigDescription& rig,
     Json json = {{"format", "risorius-fit"}, {"version", 1}};
     json.update(report.json());
     json[report::kFilesKey] = {kFitPicture, "index.html", "results.json"};
-    report::write_text(folder / "results.json", json.dump(2) + "\n");
+    report::write_text(folder / "results.json", json_text(json, 2) + "\n");
 }
 
 }  // namespace risorius::fitting

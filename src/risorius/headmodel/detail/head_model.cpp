@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <set>
 
 #include "risorius/core/error.h"
+#include "risorius/core/output_set.h"
 #include "risorius/headmodel/detail/lashes.h"
 #include "risorius/headmodel/detail/layout.h"
 #include "risorius/headmodel/detail/oral.h"
@@ -84,16 +84,6 @@ std::vector<Vec3> vertex_normals(const geom::PolygonMesh& mesh) {
     }
     for (Vec3& n : normals) n /= std::max(n.norm(), 1e-12);
     return normals;
-}
-
-void write_file(const std::filesystem::path& file, const std::string& text) {
-    const auto half = std::filesystem::path(file.string() + ".part");
-    {
-        std::ofstream out(half, std::ios::binary);
-        out << text;
-        if (!out.flush()) throw RunError("cannot write " + file.string());
-    }
-    std::filesystem::rename(half, file);
 }
 
 }  // namespace

@@ -2,22 +2,21 @@
 #include "risorius/headmodel/detail/tables.h"
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <sstream>
 
 #include "risorius/core/data_folder.h"
 #include "risorius/core/error.h"
+#include "risorius/core/text_lines.h"
 
 namespace risorius::headmodel {
 namespace {
 
 std::vector<std::vector<std::string>> read_csv(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    if (!in) throw Error(file.string(), "a readable table", "none");
+    const std::string text = read_text(file, {"a readable table", 32 * kMegabyte});
     std::vector<std::vector<std::string>> rows;
-    for (std::string line; std::getline(in, line);) {
-        if (!line.empty() && line.back() == '\r') line.pop_back();
+    for (TextLines lines(text); lines.next();) {
+        const std::string line(lines.line());
         if (line.empty() || line[0] == '#') continue;
         std::vector<std::string> cells;
         std::string cell;

@@ -111,6 +111,7 @@ FitTarget given_landmarks(const fs::path& file, int fps, const scene::LandmarkPo
     if (time < 0) throw Error(place, "a column time_s", "none");
     const std::vector<double> times = table.samples(time);
     const std::vector<std::string> ids = points.ids();
+    FitTarget out;
     std::vector<std::size_t> known;
     std::vector<Points> rows(times.size());
     std::vector<std::array<std::vector<double>, 3>> numbers;
@@ -127,7 +128,11 @@ FitTarget given_landmarks(const fs::path& file, int fps, const scene::LandmarkPo
                         "only some of them");
         known.push_back(i);
         auto& of = numbers.emplace_back();
-        for (std::size_t k = 0; k < 3; ++k) of[k] = table.samples(columns[k]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            signal::Recording::Bridged bridged = table.bridged_samples(columns[k], times);
+            of[k] = std::move(bridged.samples);
+            out.notes.insert(out.notes.end(), bridged.notes.begin(), bridged.notes.end());
+        }
     }
     if (known.size() < 4 || times.empty())
         throw Error(place, "rows of at least four landmarks, as prn.x_mm, prn.y_mm, prn.z_mm",
@@ -144,7 +149,6 @@ FitTarget given_landmarks(const fs::path& file, int fps, const scene::LandmarkPo
     std::vector<long> on_skull;
     for (std::size_t i = 0; i < known.size(); ++i)
         if (max_m[known[i]] < kOnTheSkull_m) on_skull.push_back(static_cast<long>(i));
-    FitTarget out;
     out.weight = Eigen::VectorXd::Zero(vertices);
     for (const std::size_t i : known) out.weight[points.vertex(ids[i])] = 1;
     double next_s = times[0];

@@ -18,9 +18,10 @@ namespace risorius::inverse {
 /// Targets over the same vertices for all shapes or frames.
 struct FitTarget {
     std::vector<std::string> names;
-    std::vector<double> times_s;  ///< time of each frame, s; empty for shapes
-    std::vector<Points> fields;   ///< V x 3 each, m, head frame
-    Eigen::VectorXd weight;       ///< V, weight of each vertex in the error
+    std::vector<double> times_s;          ///< time of each frame, s; empty for shapes
+    std::vector<Points> fields;           ///< V x 3 each, m, head frame
+    Eigen::VectorXd weight;               ///< V, weight of each vertex in the error
+    std::vector<std::string> notes = {};  ///< values of landmarks that were missing and are bridged
 };
 
 /// Reads a table of measured shapes (.json), or shapes.glb of `risorius shapes`. `only`: names; empty: all. Throws Error.

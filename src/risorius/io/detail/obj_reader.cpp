@@ -4,11 +4,14 @@
 #include <array>
 #include <charconv>
 #include <string_view>
-#include <tuple>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "risorius/core/error.h"
+#include "risorius/core/readable_text.h"
+#include "risorius/core/text_lines.h"
+#include "risorius/io/detail/mesh_limits.h"
 
 namespace risorius::io::detail {
 namespace {
@@ -16,30 +19,37 @@ namespace {
 constexpr int kNoTexCoord = -1;
 const std::string kDefaultGroup = "default";  // the format's name for faces before any "g"
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-/// The text at an error in the file, shortened and printable.
-std::string in_quotes(std::string_view text) {
-    std::string out = "\"";
-    for (const char c : text.substr(0, 24)) out += (c >= 32 && c < 127) ? c : '?';
-    if (text.size() > 24) out += "...";
-    return out + "\"";
+/// The text at an error in the file, shortened.
+std::string in_quotes(std::string_view text) { return "\"" + shortened_text(text, 24) + "\""; }
+
+/// Keys that are followed by a name, in which a '#' is a letter like others.
+bool takes_a_name(std::string_view key) {
+    return key == "g" || key == "o" || key == "usemtl" || key == "mtllib";
 }
 
 class ObjReader {
   public:
-    ObjReader(const std::string& text, const std::string& name) : text_(text), name_(name) {}
+    ObjReader(const std::string& text, const std::string& name) : lines_(text), name_(name) {}
 
     geom::PolygonMesh read() {
-        std::size_t at = 0;
         std::string joined;
-        while (at < text_.size()) {
-            std::string_view line = next_line(at);
+        while (lines_.next()) {
+            std::string_view line = trimmed(lines_.line());
+            std::string_view rest = line;
+            const std::string_view key = next_word(rest);
+            // A comment ends with its line, whatever stands last in it.
+            if (key.empty() || key.front() == '#') continue;
+            const bool named = takes_a_name(key);
+            line_ = static_cast<int>(lines_.number());
+            if (!named) line = without_comment(line);
             // A backslash at the end of a line continues it on the next line.
             if (!line.empty() && line.back() == '\\') {
                 joined.assign(line.substr(0, line.size() - 1));
-                while (at < text_.size()) {
-                    const std::string_view more = next_line(at);
+                while (lines_.next()) {
+                    std::string_view more = trimmed(lines_.line());
+                    if (!named) more = without_comment(more);
                     const bool goes_on = !more.empty() && more.back() == '\\';
                     joined += ' ';
                     joined += more.substr(0, more.size() - (goes_on ? 1 : 0));
@@ -57,14 +67,12 @@ class ObjReader {
     }
 
   private:
-    std::string_view next_line(std::size_t& at) {
-        std::size_t end = text_.find('\n', at);
-        if (end == std::string_view::npos) end = text_.size();
-        std::string_view line = text_.substr(at, end - at);
+    static std::string_view trimmed(std::string_view line) {
         while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
-        at = end + 1;
-        ++line_;
         return line;
+    }
+    static std::string_view without_comment(std::string_view line) {
+        return trimmed(line.substr(0, line.find('#')));
     }
 
     static std::string_view next_word(std::string_view& rest) {
@@ -83,12 +91,13 @@ class ObjReader {
 
     void read_statement(std::string_view rest) {
         const std::string_view key = next_word(rest);
-        if (key.empty() || key.front() == '#') return;
         if (key == "v") {
+            if (positions_.size() == kMostVertices) fail(kFewerVertices, "more");
             std::array<double, 3> p;
             read_numbers(rest, p.data(), 3, "three coordinates after \"v\"");
             positions_.push_back(p);
         } else if (key == "vt") {
+            if (texcoords_.size() == kMostCorners) fail(kFewerCorners, "more");
             std::array<double, 2> t{0.0, 0.0};
             read_numbers(rest, t.data(), 2, "two coordinates after \"vt\"");
             texcoords_.push_back(t);
@@ -102,7 +111,8 @@ class ObjReader {
         } else if (key == "mtllib") {
             while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
             while (!rest.empty() && is_blank(rest.back())) rest.remove_suffix(1);
-            libraries_.emplace_back(rest);
+            // A file may name its library before each object.
+            if (seen_libraries_.emplace(rest).second) libraries_.emplace_back(rest);
         } else if (stranger_.empty() && key != "vn" && key != "s") {
             stranger_ = in_quotes(key);
             stranger_line_ = line_;
@@ -120,7 +130,10 @@ class ObjReader {
             if (problem == std::errc::result_out_of_range)
                 fail("a number that a double can hold", in_quotes(whole));
             if (problem != std::errc() || end != word.data() + word.size())
-                fail("a number", in_quotes(whole));
+                fail(whole.find(',') == std::string_view::npos
+                         ? "a number"
+                         : "a number with a point before its decimals",
+                     in_quotes(whole));
         }
     }
 
@@ -134,19 +147,27 @@ class ObjReader {
         return resolved;
     }
 
+    /// The index at the start of a text; `at` goes behind it.
+    static bool read_index(const char*& at, const char* end, int& value) {
+        if (at != end && *at == '+') ++at;
+        const auto [behind, problem] = std::from_chars(at, end, value);
+        at = behind;
+        return problem == std::errc();
+    }
+
     void read_face(std::string_view rest) {
         int corners = 0;
+        const std::size_t first = corner_vertex_.size();
         for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
-            const char* const end = word.data() + word.size();
+            if (corner_vertex_.size() == kMostCorners) fail(kFewerCorners, "more");
+            const char *at = word.data(), *const end = at + word.size();
             int vertex = 0, texcoord = 0;
-            auto [at, problem] = std::from_chars(word.data(), end, vertex);
-            if (problem != std::errc())
+            if (!read_index(at, end, vertex))
                 fail("a face corner v, v/vt, v//vn or v/vt/vn", in_quotes(word));
             corner_vertex_.push_back(resolve(vertex, positions_.size(), "vertex"));
             int corner_texcoord = kNoTexCoord;
             if (at != end && *at == '/' && at + 1 != end && at[1] != '/') {
-                std::tie(at, problem) = from_chars_pair(at + 1, end, texcoord);
-                if (problem != std::errc())
+                if (!read_index(++at, end, texcoord))
                     fail("a face corner v, v/vt, v//vn or v/vt/vn", in_quotes(word));
                 corner_texcoord = resolve(texcoord, texcoords_.size(), "texture coordinate");
             }
@@ -155,17 +176,18 @@ class ObjReader {
             corner_texcoord_.push_back(corner_texcoord);
             ++corners;
         }
-        if (corners < 3) fail("a face of at least three corners", std::to_string(corners));
+        if (corners < 2) fail("a face of at least three corners", std::to_string(corners));
+        if (corners == 2) {
+            // Some programs write edges this way.
+            if (edges_++ == 0) edge_line_ = line_;
+            corner_vertex_.resize(first);
+            corner_texcoord_.resize(first);
+            return;
+        }
         face_begin_.push_back(static_cast<int>(corner_vertex_.size()));
         face_line_.push_back(line_);
         face_group_.push_back(group_);
         face_material_.push_back(material_);
-    }
-
-    static std::pair<const char*, std::errc> from_chars_pair(const char* begin, const char* end,
-                                                             int& value) {
-        const auto result = std::from_chars(begin, end, value);
-        return {result.ptr, result.ec};
     }
 
     /// A "g" line may list several names. They stay one name with spaces, as written.
@@ -218,12 +240,22 @@ class ObjReader {
         mesh.face_begin = std::move(face_begin_);
         mesh.corner_vertex = std::move(corner_vertex_);
         name_groups(mesh);
+        if (edges_ > 0)
+            mesh.notes.push_back(
+                name_ + ":" + std::to_string(edge_line_) + ": " +
+                (edges_ == 1 ? std::string("a face of two corners is an edge")
+                             : std::to_string(edges_) + " faces of two corners are edges") +
+                ", left out");
         return mesh;
     }
 
     /// Sorts groups by their first face. A name without faces is not a group.
     void name_groups(geom::PolygonMesh& mesh) const {
         const bool by_material = !has_groups_ && !material_names_.empty();
+        if (has_groups_ && !material_names_.empty()) {
+            mesh.material_names = material_names_;
+            mesh.face_material = face_material_;
+        }
         const std::vector<std::string>& names = by_material ? material_names_ : group_names_;
         std::unordered_map<std::string, int> seen;
         for (const int named : by_material ? face_material_ : face_group_) {
@@ -237,9 +269,10 @@ class ObjReader {
 
     static constexpr int kUnnamed = -1;
 
-    std::string_view text_;
+    TextLines lines_;
     std::string name_;
-    int line_ = 0;
+    int line_ = 0;  ///< of the statement
+    int edges_ = 0, edge_line_ = 0;
     std::vector<std::array<double, 3>> positions_;
     std::vector<std::array<double, 2>> texcoords_;
     std::vector<int> face_begin_{0}, face_line_, face_group_, face_material_;
@@ -248,6 +281,7 @@ class ObjReader {
     int group_ = kUnnamed, material_ = kUnnamed;
     std::vector<std::string> group_names_, material_names_, libraries_;
     std::unordered_map<std::string, int> group_of_name_, material_of_name_;
+    std::unordered_set<std::string> seen_libraries_;
     std::string stranger_;
     int stranger_line_ = 0;
 };

@@ -11,7 +11,7 @@
 namespace risorius::io::detail {
 
 /// Assigns to faces the picture of their material's "map_Kd". MTL files that do not exist are ignored, as other programs do.
-/// Whether the picture exists is not checked. Throws Error for a "map_Kd" that cannot be interpreted.
+/// Whether the picture exists is not checked. Pictures that cannot be laid on are left out, with a note in `mesh`.
 void add_obj_textures(const std::filesystem::path& obj, const ObjMaterials& materials,
                       geom::PolygonMesh& mesh);
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "risorius/core/error.h"
-#include "risorius/media/detail/temporary_file.h"
+#include "risorius/core/output_set.h"
 
 namespace risorius::media::detail {
 
@@ -77,7 +77,7 @@ void write_png_samples(const PngSamples& picture, const std::filesystem::path& f
     PngSink sink;
     if (!encode_png(picture, rows.data(), sink))
         throw RunError(file.string() + ": cannot be encoded as PNG: " + sink.failure);
-    write_whole(file, sink.bytes.data(), sink.bytes.size());
+    write_file(file, {reinterpret_cast<const char*>(sink.bytes.data()), sink.bytes.size()});
 }
 
 }  // namespace risorius::media::detail

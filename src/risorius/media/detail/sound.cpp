@@ -2,12 +2,10 @@
 #include "risorius/media/detail/sound.h"
 
 #include <algorithm>
-#include <cstring>
-#include <fstream>
-#include <new>
+#include <cmath>
 
 #include "risorius/core/error.h"
-#include "risorius/media/detail/ffmpeg.h"
+#include "risorius/media/detail/sound_stream.h"
 
 namespace risorius::media {
 
@@ -15,210 +13,196 @@ using namespace detail;
 
 namespace {
 
-class SoundFile {
-  public:
-    explicit SoundFile(const std::filesystem::path& file) : name_(file.string()) {
-        silence_ffmpeg();
-        std::error_code ignored;
-        if (!std::filesystem::exists(file, ignored))
-            throw Error(name_, "a sound file", "no such file");
-        if (std::filesystem::is_directory(file, ignored))
-            throw Error(name_, "a sound file", "a folder");
-        if (avformat_open_input(&format_, ffmpeg_url(name_).c_str(), nullptr, nullptr) < 0 ||
-            avformat_find_stream_info(format_, nullptr) < 0)
-            throw Error(name_, "a sound file", "another kind of file, or one cut short");
-    }
-    ~SoundFile() {
-        if (format_) avformat_close_input(&format_);
-    }
-    SoundFile(const SoundFile&) = delete;
-    SoundFile& operator=(const SoundFile&) = delete;
+float amplified(double factor, float sample) { return static_cast<float>(factor * sample); }
 
-    Sound read();
+[[noreturn]] void fail_as_changed(const Recording& recording) {
+    throw Error(recording.file.string(), "a file that does not change",
+                "another length than before");
+}
+
+/// Reads a recording and applies its gain.
+class RecordingReader {
+  public:
+    explicit RecordingReader(const Recording& recording)
+        : recording_(recording),
+          stream_(recording.file),
+          factor_(std::pow(10, recording.gain_db / 20)) {
+        if (stream_.form().rate_hz != recording.rate_hz ||
+            stream_.form().channels != recording.channels)
+            fail_as_changed(recording);
+    }
+
+    /// The next samples, interleaved; false at the end.
+    bool next(std::vector<float>& piece) {
+        if (!stream_.next(piece)) {
+            if (read_ != recording_.length()) fail_as_changed(recording_);
+            return false;
+        }
+        read_ += static_cast<std::int64_t>(piece.size()) / recording_.channels;
+        if (read_ > recording_.length()) fail_as_changed(recording_);
+        if (recording_.gain_db != 0)
+            for (float& sample : piece) sample = amplified(factor_, sample);
+        return true;
+    }
 
   private:
-    void open_decoder();
-    void take(Sound& sound) const;
-
-    std::string name_;
-    AVFormatContext* format_ = nullptr;
-    AVStream* stream_ = nullptr;
-    CodecPtr codec_;
-    FramePtr piece_;
-    PacketPtr packet_;
+    Recording recording_;
+    SoundStream stream_;
+    double factor_;
+    std::int64_t read_ = 0;
 };
-
-void SoundFile::open_decoder() {
-    const AVCodec* decoder = nullptr;
-    const int index = av_find_best_stream(format_, AVMEDIA_TYPE_AUDIO, -1, -1, &decoder, 0);
-    if (index < 0 || !decoder) throw Error(name_, "a file with sound", "none in it");
-    stream_ = format_->streams[index];
-    codec_.reset(avcodec_alloc_context3(decoder));
-    piece_.reset(av_frame_alloc());
-    packet_.reset(av_packet_alloc());
-    if (!codec_ || !piece_ || !packet_) throw std::bad_alloc();
-    codec_->pkt_timebase = stream_->time_base;
-    codec_->err_recognition = AV_EF_CRCCHECK | AV_EF_EXPLODE;
-    if (avcodec_parameters_to_context(codec_.get(), stream_->codecpar) < 0 ||
-        avcodec_open2(codec_.get(), decoder, nullptr) < 0)
-        throw Error(name_, "sound that can be decoded", "a decoder that does not start");
-}
-
-float float_of(const std::uint8_t* at, AVSampleFormat format) {
-    const auto value_as = [&](auto value) {
-        std::memcpy(&value, at, sizeof value);
-        return value;
-    };
-    switch (av_get_packed_sample_fmt(format)) {
-        case AV_SAMPLE_FMT_U8:
-            return (static_cast<float>(*at) - 128.0f) / 128.0f;
-        case AV_SAMPLE_FMT_S16:
-            return static_cast<float>(value_as(std::int16_t{})) / 32768.0f;
-        case AV_SAMPLE_FMT_S32:
-            return static_cast<float>(value_as(std::int32_t{}) / 2147483648.0);
-        case AV_SAMPLE_FMT_DBL:
-            return static_cast<float>(value_as(double{}));
-        default:
-            return value_as(float{});
-    }
-}
-
-void SoundFile::take(Sound& sound) const {
-    const auto format = static_cast<AVSampleFormat>(piece_->format);
-    const int size = av_get_bytes_per_sample(format);
-    const bool planar = av_sample_fmt_is_planar(format) != 0;
-    if (piece_->ch_layout.nb_channels != sound.channels || piece_->sample_rate != sound.rate_hz)
-        throw Error(name_, "one rate and number of channels throughout", "a change of them");
-    for (int i = 0; i < piece_->nb_samples; ++i)
-        for (int c = 0; c < sound.channels; ++c) {
-            const std::uint8_t* at =
-                planar ? piece_->extended_data[c] + std::ptrdiff_t{i} * size
-                       : piece_->extended_data[0] + (std::ptrdiff_t{i} * sound.channels + c) * size;
-            sound.samples.push_back(float_of(at, format));
-        }
-}
-
-Sound SoundFile::read() {
-    open_decoder();
-    Sound sound;
-    sound.rate_hz = codec_->sample_rate;
-    sound.channels = codec_->ch_layout.nb_channels;
-    sound.container = format_->iformat->name;
-    const AVSampleFormat coded = av_get_packed_sample_fmt(codec_->sample_fmt);
-    sound.bits = coded == AV_SAMPLE_FMT_FLT || coded == AV_SAMPLE_FMT_DBL  ? 32
-                 : coded == AV_SAMPLE_FMT_U8 || coded == AV_SAMPLE_FMT_S16 ? 16
-                                                                           : 24;
-    const auto check = [&](int code) {
-        if (code < 0 && code != AVERROR(EAGAIN) && code != AVERROR_EOF)
-            throw Error(name_, "sound that can be decoded", ffmpeg_text(code));
-        return code >= 0;
-    };
-    for (bool more = true; more;) {
-        more = av_read_frame(format_, packet_.get()) >= 0;
-        if (!more)
-            check(avcodec_send_packet(codec_.get(), nullptr));
-        else if (packet_->stream_index == stream_->index)
-            check(avcodec_send_packet(codec_.get(), packet_.get()));
-        av_packet_unref(packet_.get());
-        while (check(avcodec_receive_frame(codec_.get(), piece_.get()))) {
-            if (sound.samples.empty() && piece_->best_effort_timestamp != AV_NOPTS_VALUE)
-                sound.start_s =
-                    static_cast<double>(piece_->best_effort_timestamp) * av_q2d(stream_->time_base);
-            take(sound);
-        }
-    }
-    if (sound.samples.empty()) throw Error(name_, "a file with sound", "no samples in it");
-    return sound;
-}
-
-/// Number of bytes that are missing according to a WAV file's header. FFmpeg would read the shorter file without an error.
-std::int64_t bytes_missing_of_wav(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file));
-    std::int64_t at = 12;  // after "RIFF", its length and "WAVE"
-    char chunk[8];
-    while (in.seekg(at) && in.read(chunk, sizeof chunk)) {
-        std::int64_t length = 0;
-        for (int i = 7; i >= 4; --i) length = length << 8 | static_cast<unsigned char>(chunk[i]);
-        constexpr std::int64_t kUnknown = 0xffffffff;  // written by programs that write into a pipe
-        if (std::memcmp(chunk, "data", 4) == 0)
-            return length == kUnknown ? 0 : std::max<std::int64_t>(0, at + 8 + length - size);
-        at += 8 + length + (length & 1);
-    }
-    return 0;
-}
-
-/// Number of samples according to a FLAC file's header.
-std::int64_t samples_promised_by_flac(const std::filesystem::path& file, int rate_hz) {
-    AVFormatContext* format = nullptr;
-    if (avformat_open_input(&format, ffmpeg_url(file.string()).c_str(), nullptr, nullptr) < 0)
-        return 0;
-    const AVStream* stream = format->nb_streams > 0 ? format->streams[0] : nullptr;
-    const std::int64_t promised =
-        stream && stream->duration > 0
-            ? av_rescale_q(stream->duration, stream->time_base, {1, rate_hz})
-            : 0;
-    avformat_close_input(&format);
-    return promised;
-}
-
-void check_whole(const std::filesystem::path& file, const Sound& sound) {
-    if (sound.container == "wav") {
-        if (const std::int64_t missing = bytes_missing_of_wav(file); missing > 0)
-            throw Error(file.string(), "as much sound as its header says",
-                        std::to_string(missing) + " bytes less");
-        return;
-    }
-    const std::int64_t promised = samples_promised_by_flac(file, sound.rate_hz);
-    if (sound.length() < promised)
-        throw Error(file.string(), std::to_string(promised) + " samples, as its header says",
-                    "only " + std::to_string(sound.length()));
-}
 
 }  // namespace
 
-Sound read_sound(const std::filesystem::path& file) { return SoundFile(file).read(); }
-
-Sound read_recording(const std::filesystem::path& file) {
-    Sound sound = read_sound(file);
-    if (sound.container != "wav" && sound.container != "flac")
-        throw Error(file.string(), "a WAV or FLAC file",
-                    "one of " + risorius::in_quotes(sound.container));
-    check_whole(file, sound);
+Sound read_sound(const std::filesystem::path& file) {
+    SoundStream stream(file);
+    Sound sound;
+    static_cast<SoundForm&>(sound) = stream.form();
+    for (std::vector<float> piece; stream.next(piece);)
+        sound.samples.insert(sound.samples.end(), piece.begin(), piece.end());
+    sound.start_s = stream.start_s();
+    if (sound.samples.empty()) throw Error(file.string(), "a file with sound", "no samples in it");
     return sound;
 }
 
-Sound resampled(const Sound& sound, int rate_hz) {
-    if (rate_hz == sound.rate_hz) return sound;
-    AVChannelLayout layout{};
-    av_channel_layout_default(&layout, sound.channels);
-    SwrContext* made = nullptr;
-    const int code = swr_alloc_set_opts2(&made, &layout, AV_SAMPLE_FMT_FLT, rate_hz, &layout,
-                                         AV_SAMPLE_FMT_FLT, sound.rate_hz, 0, nullptr);
-    const SwrPtr swr(made);
-    if (code < 0 || !swr) throw RunError("no conversion of sample rates: " + ffmpeg_text(code));
-    if (const int opened = swr_init(swr.get()); opened < 0)
-        throw RunError("no conversion of sample rates: " + ffmpeg_text(opened));
+Recording open_recording(const std::filesystem::path& file) {
+    SoundStream stream(file);
+    Recording recording;
+    static_cast<SoundForm&>(recording) = stream.form();
+    recording.file = file;
+    if (recording.container != "wav" && recording.container != "flac")
+        throw Error(file.string(), "a WAV or FLAC file",
+                    "one of " + risorius::in_quotes(recording.container));
+    for (std::vector<float> piece; stream.next(piece);)
+        recording.samples_of_channel +=
+            static_cast<std::int64_t>(piece.size()) / recording.channels;
+    if (recording.length() == 0)
+        throw Error(file.string(), "a file with sound", "no samples in it");
+    stream.check_whole(recording.length());
+    return recording;
+}
 
-    Sound out = sound;
-    out.rate_hz = rate_hz;
-    const std::int64_t length = av_rescale_rnd(sound.length(), rate_hz, sound.rate_hz, AV_ROUND_UP);
-    // Room for samples that the filter still holds when the input has ended.
-    out.samples.assign(static_cast<std::size_t>((length + 4096) * sound.channels), 0.0f);
-    auto* to = reinterpret_cast<std::uint8_t*>(out.samples.data());
-    const auto* from = reinterpret_cast<const std::uint8_t*>(sound.samples.data());
-    const int room = static_cast<int>(length) + 4096;
-    int got = swr_convert(swr.get(), &to, room, &from, static_cast<int>(sound.length()));
-    if (got >= 0) {
-        auto* rest = to + sizeof(float) * static_cast<std::size_t>(got) *
-                              static_cast<std::size_t>(sound.channels);
-        const int flushed = swr_convert(swr.get(), &rest, room - got, nullptr, 0);
-        if (flushed > 0) got += flushed;
+void for_each_piece(const Recording& recording, std::int64_t offset, std::int64_t length,
+                    const std::function<void(const float*, std::size_t)>& take) {
+    constexpr std::int64_t kSilence = 4096;
+    const std::vector<float> silence(static_cast<std::size_t>(kSilence * recording.channels), 0.0f);
+    const auto be_silent = [&](std::int64_t count) {
+        for (; count > 0; count -= kSilence)
+            take(silence.data(), static_cast<std::size_t>(std::min(count, kSilence)));
+    };
+    const std::int64_t begin = std::clamp<std::int64_t>(offset, 0, length),
+                       end = std::clamp<std::int64_t>(offset + recording.length(), begin, length);
+    be_silent(begin);
+    RecordingReader reader(recording);
+    std::int64_t at = offset;  // of the piece, from the start of the part
+    for (std::vector<float> piece; begin < end && at < end && reader.next(piece);) {
+        const std::int64_t count = static_cast<std::int64_t>(piece.size()) / recording.channels;
+        const std::int64_t first = std::max(at, begin), last = std::min(at + count, end);
+        if (first < last)
+            take(piece.data() + (first - at) * recording.channels,
+                 static_cast<std::size_t>(last - first));
+        at += count;
     }
-    if (got < 0) throw RunError("no conversion of sample rates: " + ffmpeg_text(got));
-    out.samples.resize(static_cast<std::size_t>(std::min<std::int64_t>(got, length)) *
-                       static_cast<std::size_t>(sound.channels));
+    be_silent(length - end);
+}
+
+Sound part_of(const Recording& recording, std::int64_t offset, std::int64_t length) {
+    Sound out;
+    static_cast<SoundForm&>(out) = recording;
+    for_each_piece(recording, offset, length, [&](const float* samples, std::size_t count) {
+        out.samples.insert(out.samples.end(), samples,
+                           samples + count * static_cast<std::size_t>(recording.channels));
+    });
     return out;
+}
+
+struct ResampledRecording::Impl {
+    RecordingReader reader;
+    int channels;
+    std::int64_t length;
+    SwrPtr swr;                // none when the rate stays
+    std::vector<float> piece;  // as read
+    std::vector<float> ready;  // at the new rate; its first sample is number `first`
+    std::int64_t first = 0;
+    bool ended = false;
+
+    Impl(const Recording& recording, int rate_hz)
+        : reader(recording),
+          channels(recording.channels),
+          length(av_rescale_rnd(recording.length(), rate_hz, recording.rate_hz, AV_ROUND_UP)) {
+        if (rate_hz == recording.rate_hz) return;
+        AVChannelLayout layout{};
+        av_channel_layout_default(&layout, channels);
+        SwrContext* made = nullptr;
+        const int code = swr_alloc_set_opts2(&made, &layout, AV_SAMPLE_FMT_FLT, rate_hz, &layout,
+                                             AV_SAMPLE_FMT_FLT, recording.rate_hz, 0, nullptr);
+        swr.reset(made);
+        check(code < 0 || !swr ? std::min(code, -1) : swr_init(swr.get()));
+    }
+
+    static void check(int code) {
+        if (code < 0) throw RunError("no conversion of sample rates: " + ffmpeg_text(code));
+    }
+
+    /// Converts `count` samples and what the filter holds; the end of the input without samples.
+    void convert(const float* samples, int count) {
+        const int room = swr_get_out_samples(swr.get(), count);
+        check(room);
+        const std::size_t before = ready.size();
+        ready.resize(before + static_cast<std::size_t>(room) * static_cast<std::size_t>(channels));
+        auto* to = reinterpret_cast<std::uint8_t*>(ready.data() + before);
+        const auto* from = reinterpret_cast<const std::uint8_t*>(samples);
+        const int got = swr_convert(swr.get(), &to, room, samples ? &from : nullptr, count);
+        check(got);
+        ready.resize(before + static_cast<std::size_t>(got) * static_cast<std::size_t>(channels));
+    }
+
+    /// Makes more samples ready. Returns false at the end.
+    bool fill() {
+        if (ended) return false;
+        ended = !reader.next(piece);
+        if (!swr)
+            ready.insert(ready.end(), piece.begin(), piece.end());
+        else
+            convert(ended ? nullptr : piece.data(),
+                    ended ? 0 : static_cast<int>(piece.size()) / channels);
+        return true;
+    }
+
+    std::int64_t end() const { return first + static_cast<std::int64_t>(ready.size()) / channels; }
+
+    /// Forgets what lies before `from`.
+    void drop_until(std::int64_t from) {
+        const std::int64_t count = std::clamp<std::int64_t>(from - first, 0, end() - first);
+        ready.erase(ready.begin(), ready.begin() + count * channels);
+        first += count;
+    }
+};
+
+ResampledRecording::ResampledRecording(const Recording& recording, int rate_hz)
+    : impl_(std::make_unique<Impl>(recording, rate_hz)) {}
+ResampledRecording::~ResampledRecording() = default;
+ResampledRecording::ResampledRecording(ResampledRecording&&) noexcept = default;
+ResampledRecording& ResampledRecording::operator=(ResampledRecording&&) noexcept = default;
+
+std::int64_t ResampledRecording::length() const { return impl_->length; }
+
+void ResampledRecording::read(std::int64_t from, std::int64_t count, float* to) {
+    Impl& in = *impl_;
+    const std::int64_t channels = in.channels;
+    std::fill(to, to + count * channels, 0.0f);
+    const std::int64_t begin = std::max<std::int64_t>(from, 0),
+                       end = std::min(from + count, in.length);
+    if (begin >= end) return;
+    in.drop_until(begin);
+    while (in.end() < end) {
+        if (!in.fill()) break;
+        in.drop_until(begin);
+    }
+    const std::int64_t last = std::min(end, in.end());
+    if (last > begin)
+        std::copy(in.ready.begin() + (begin - in.first) * channels,
+                  in.ready.begin() + (last - in.first) * channels, to + (begin - from) * channels);
 }
 
 }  // namespace risorius::media

@@ -17,7 +17,7 @@ constexpr int kPcmPiece = 1024;  // samples per packet; the number does not matt
 // For AAC and Opus; transparent for speech and most music.
 constexpr int kBitsPerChannel = 128 * 1000;
 
-const char* encoder_of(Form form, const Sound& sound) {
+const char* encoder_of(Form form, const SoundForm& sound) {
     if (form == Form::kMp4) return "aac";
     if (form == Form::kWebm) return "libopus";
     return sound.bits == 16 ? "pcm_s16le" : sound.bits == 24 ? "pcm_s24le" : "pcm_f32le";
@@ -57,7 +57,7 @@ void SoundCoder::check(int code, const char* what) const {
     if (code < 0) throw RunError(name_ + ": sound: " + what + ": " + ffmpeg_text(code));
 }
 
-SoundCoder::SoundCoder(std::string name, Form form, const Sound& recording,
+SoundCoder::SoundCoder(std::string name, Form form, const Recording& recording,
                        std::int64_t offset_samples, bool headers_apart)
     : name_(std::move(name)) {
     const char* const wanted = encoder_of(form, recording);
@@ -65,7 +65,8 @@ SoundCoder::SoundCoder(std::string name, Form form, const Sound& recording,
     if (!encoder)
         throw RunError(name_ + ": the installed libavcodec has no " + wanted + " encoder");
     const int rate_hz = rate_for(*encoder, recording.rate_hz);
-    sound_ = resampled(recording, rate_hz);
+    channels_ = recording.channels;
+    sound_.emplace(recording, rate_hz);
     first_ = std::llround(static_cast<double>(offset_samples) * rate_hz / recording.rate_hz);
 
     codec_.reset(avcodec_alloc_context3(encoder));
@@ -73,16 +74,16 @@ SoundCoder::SoundCoder(std::string name, Form form, const Sound& recording,
     if (!codec_ || !piece_) throw std::bad_alloc();
     codec_->sample_rate = rate_hz;
     codec_->sample_fmt = encoder->sample_fmts ? encoder->sample_fmts[0] : AV_SAMPLE_FMT_FLTP;
-    av_channel_layout_default(&codec_->ch_layout, sound_.channels);
+    av_channel_layout_default(&codec_->ch_layout, channels_);
     codec_->time_base = {1, rate_hz};
     codec_->thread_count = 1;
     codec_->flags |= AV_CODEC_FLAG_BITEXACT;
     if (headers_apart) codec_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
     if (form == Form::kMp4 || form == Form::kWebm) {
-        codec_->bit_rate = kBitsPerChannel * sound_.channels;
+        codec_->bit_rate = kBitsPerChannel * channels_;
         // At low rates, 128 kbit/s per channel are more than AAC allows (6144 bits per frame).
         codec_->bit_rate =
-            std::min<std::int64_t>(codec_->bit_rate, std::int64_t{4} * rate_hz * sound_.channels);
+            std::min<std::int64_t>(codec_->bit_rate, std::int64_t{4} * rate_hz * channels_);
     }
     check(avcodec_open2(codec_.get(), encoder, nullptr), "the encoder does not start");
 }
@@ -94,14 +95,13 @@ void SoundCoder::send(int length) {
     piece_->sample_rate = codec_->sample_rate;
     check(av_channel_layout_copy(&piece_->ch_layout, &codec_->ch_layout), "no memory");
     check(av_frame_get_buffer(piece_.get(), 0), "no memory");
-    const int size = av_get_bytes_per_sample(codec_->sample_fmt), channels = sound_.channels;
+    const int size = av_get_bytes_per_sample(codec_->sample_fmt), channels = channels_;
     const bool planar = av_sample_fmt_is_planar(codec_->sample_fmt) != 0;
+    heard_.resize(static_cast<std::size_t>(length) * static_cast<std::size_t>(channels));
+    sound_->read(next_ - first_, length, heard_.data());
     for (int i = 0; i < length; ++i)
         for (int c = 0; c < channels; ++c) {
-            const std::int64_t from = next_ + i - first_;
-            const float value = from < 0 || from >= sound_.length()
-                                    ? 0.0f
-                                    : sound_.samples[static_cast<std::size_t>(from * channels + c)];
+            const float value = heard_[static_cast<std::size_t>(i * channels + c)];
             std::uint8_t* to =
                 planar ? piece_->extended_data[c] + std::ptrdiff_t{i} * size
                        : piece_->extended_data[0] + (std::ptrdiff_t{i} * channels + c) * size;

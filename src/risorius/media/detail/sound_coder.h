@@ -7,7 +7,9 @@
 /// millisecond.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "risorius/media/detail/ffmpeg.h"
 #include "risorius/media/detail/video_form.h"
@@ -17,7 +19,7 @@ namespace risorius::media::detail {
 class SoundCoder {
   public:
     /// `offset_samples`: number of samples from the first frame to the first sample, at the recording's own rate.
-    SoundCoder(std::string name, Form form, const Sound& recording, std::int64_t offset_samples,
+    SoundCoder(std::string name, Form form, const Recording& recording, std::int64_t offset_samples,
                bool headers_apart);
 
     /// Sends the sound up to a given sample to the encoder. Returns true as long as packets must be received before it takes
@@ -33,7 +35,9 @@ class SoundCoder {
     void check(int code, const char* what) const;
 
     std::string name_;
-    Sound sound_;
+    std::optional<ResampledRecording> sound_;
+    std::vector<float> heard_;  ///< samples of the block that is sent
+    int channels_ = 1;
     std::int64_t first_ = 0;  ///< position of the sound's first sample in the stream
     CodecPtr codec_;
     FramePtr piece_;

@@ -2,9 +2,13 @@
 #include "risorius/render/detail/gl_context.h"
 
 #include <cstdlib>
+#include <latch>
 #include <mutex>
+#include <thread>
+#include <vector>
 
 #include "risorius/core/error.h"
+#include "risorius/core/parallel.h"
 #include "risorius/render/detail/gl_backend.h"
 
 namespace risorius::render {
@@ -13,6 +17,18 @@ namespace {
 std::mutex& driver_mutex() {
     static std::mutex mutex;
     return mutex;
+}
+
+/// Whether the system gives as many threads. Where it refuses one to llvmpipe, llvmpipe waits for it without end.
+bool can_start(int threads) {
+    // For its pool of compute shaders, and for what it starts beside
+    threads = 2 * threads + 2;
+    std::latch begun(1);
+    std::vector<std::jthread> started;
+    bool all = true;
+    for (int i = 0; i < threads && all; ++i) all = add_thread(started, [&] { begun.wait(); });
+    begun.count_down();
+    return all;
 }
 
 GLuint compile(const std::string& name, GLenum stage, const std::string& source) {
@@ -36,7 +52,7 @@ GLuint compile(const std::string& name, GLenum stage, const std::string& source)
 GlContext::GlContext(int threads, const GlContext* shared) {
     // The driver reads its thread count from the environment when it creates its only screen.
     const std::lock_guard<std::mutex> lock(driver_mutex());
-    setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+    setenv("LP_NUM_THREADS", std::to_string(can_start(threads) ? threads : 0).c_str(), 1);
     GlBackend& backend = gl_backend();
     context_ = backend.make_context(shared ? shared->context_ : nullptr);
     if (!context_) throw RunError(std::string("no OpenGL 4.5 context (") + backend.name() + ")");

@@ -3,20 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "risorius/animate/frame_rows.h"
 #include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
+#include "risorius/core/input_log.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/output_set.h"
+#include "risorius/core/read_file.h"
 #include "risorius/core/version.h"
 #include "risorius/media/image_file.h"
 #include "risorius/media/sha256.h"
 #include "risorius/media/sync_marks.h"
 #include "risorius/media/video_reader.h"
 #include "risorius/media/wav_file.h"
-#include "risorius/report/atomic_file.h"
 #include "risorius/stimuli/detail/clip_pictures.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
 #include "risorius/track/timeline.h"
@@ -90,6 +92,7 @@ Json show_matched(const ClipPlan& plan, const UnmatchedRender& render,
                   ClipPictures& pictures) {
     const media::Tone tone = plan.tone.value_or(media::Tone{});
     const media::ToneCurve curve(tone);
+    const ReadingFormerOutput own;
     media::VideoReader reader(render.video);
     media::LuminanceSums after;
     double cut_off = 0;
@@ -116,7 +119,7 @@ Json show_matched(const ClipPlan& plan, const UnmatchedRender& render,
 
 Json portable_record(const animate::RunRecord& record) {
     Json json = record.json();
-    for (const char* key : {"out", "timing", "script"}) json.erase(key);
+    for (const char* key : {"out", "out_sha256", "timing", "script"}) json.erase(key);
     const auto name_only = [](Json& file) {
         file["file"] = fs::path(file.at("file").get<std::string>()).filename().generic_string();
     };
@@ -127,10 +130,7 @@ Json portable_record(const animate::RunRecord& record) {
 }
 
 std::string text_of_file(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream out;
-    out << in.rdbuf();
-    return out.str();
+    return read_file(file, {"a text file", 256 * kMegabyte});
 }
 
 double ClipPlan::seconds() const {
@@ -147,8 +147,8 @@ void ClipPlan::match(const media::Tone& matched) {
     tone = matched;
     const media::ToneCurve curve(matched);
     for (std::uint8_t& byte : background) byte = curve.of(byte);
-    content_sha256 = animate::sha256_of_text(
-        Json{{"content", content_sha256}, {"gain", tone->gain}, {"offset", tone->offset}}.dump());
+    content_sha256 = animate::sha256_of_text(json_text(
+        Json{{"content", content_sha256}, {"gain", tone->gain}, {"offset", tone->offset}}));
 }
 
 namespace {
@@ -202,7 +202,7 @@ std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256
             rendered["files"].push_back(
                 media::sha256_of_file(file.is_relative() ? condition.folder / file : file));
     }
-    return animate::sha256_of_text(rendered.dump());
+    return animate::sha256_of_text(json_text(rendered));
 }
 
 /// The checksum of everything that the clip depends on.
@@ -225,7 +225,7 @@ std::string content_sha256_of(const ClipPlan& plan) {
         content["sound"] = {{"file", plan.sound->sha256},
                             {"offset_samples", plan.sound->offset_samples},
                             {"gain_db", plan.sound->gain_db}};
-    return animate::sha256_of_text(content.dump());
+    return animate::sha256_of_text(json_text(content));
 }
 
 }  // namespace
@@ -259,7 +259,7 @@ ClipPlan plan_clip(const design::Condition& condition, const design::Design& des
                                design.match.loudness_lufs, json.place());
     const std::string rig_sha256 = sha256_of_rig(*input);
     plan.scene_sha256 = animate::sha256_of_text(
-        Json{rig_sha256, clips.quality, condition.script.value("view", Json())}.dump());
+        json_text(Json{rig_sha256, clips.quality, condition.script.value("view", Json())}));
     plan.render_sha256 = render_sha256_of(plan, rig_sha256);
     plan.content_sha256 = content_sha256_of(plan);
     return plan;
@@ -281,10 +281,12 @@ ClipFiles clip_files(const ClipPlan& plan) {
 }
 
 Json clip_record(const ClipPlan& plan, const fs::path& folder) {
+    const ReadingFormerOutput former;
     return JsonCursor::read_file(folder / clip_files(plan).sidecar).json();
 }
 
 bool is_made(const ClipPlan& plan, const fs::path& folder) {
+    const ReadingFormerOutput former;
     const ClipFiles files = clip_files(plan);
     if (!fs::exists(folder / files.sidecar)) return false;
     try {
@@ -317,14 +319,10 @@ animate::RenderJob render_job_of(const ClipPlan& plan, const fs::path& out,
 
 namespace {
 
-/// Writes the script, as it is played, to code/scripts.
-void write_clip_script(const ClipPlan& plan, const fs::path& folder) {
-    const fs::path script = folder / script_file(plan);
-    fs::create_directories(script.parent_path());
-    report::write_text(
-        script,
-        relocated(plan.condition.script, plan.condition.folder, script.parent_path()).dump(2) +
-            "\n");
+/// The script as it is played, for code/scripts.
+std::string clip_script(const ClipPlan& plan, const fs::path& folder) {
+    const fs::path below = (folder / script_file(plan)).parent_path();
+    return json_text(relocated(plan.condition.script, plan.condition.folder, below), 2) + "\n";
 }
 
 /// The unmatched render of a clip: an existing one, or a new one.
@@ -408,15 +406,16 @@ Json sidecar_of(const ClipPlan& plan, ShownClip shown, ClipPictures& pictures) {
 void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
     const ClipFiles files = clip_files(plan);
     const fs::path& folder = worker.folder;
-    for (const fs::path& file : {files.strip, files.video})
-        fs::create_directories((folder / file).parent_path());
     std::optional<UnmatchedRender> unmatched;
     if (plan.luminance) unmatched = unmatched_render_for(plan, worker);
-    // From here on the clip counts as incomplete.
-    fs::remove(folder / files.sidecar);
-    write_clip_script(plan, folder);
+    OutputSet outputs(folder, OutputSet::Then::kRunGoesOn);
+    // The sidecar first: it tells that the folder is one of `batch`.
+    const fs::path sidecar = outputs.file(folder / files.sidecar);
+    std::map<fs::path, fs::path> written;
+    for (const fs::path& file : files.listed()) written[file] = outputs.file(folder / file);
+    write_file(written[files.script], clip_script(plan, folder));
 
-    const fs::path video_file = folder / files.video;
+    const fs::path video_file = written[files.video];
     media::VideoOptions coding;
     coding.crf = plan.clips.crf;
     coding.lossless = plan.clips.lossless;
@@ -429,18 +428,20 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
     ClipPictures pictures(plan, video);
     ShownClip shown = show_clip(plan, job, unmatched, worker, pictures);
 
-    // Each file is written completely or not at all, and the sidecar last.
+    // All files appear together, or none.
     video.finish();
-    report::write_text(folder / files.events,
-                       events_table(shown.rows, shown.order, pictures.measures(), plan));
-    media::write_png(pictures.strip(), folder / files.strip);
+    write_file(written[files.events],
+               events_table(shown.rows, shown.order, pictures.measures(), plan));
+    media::write_png(pictures.strip(), written[files.strip]);
     if (plan.sound)
         media::write_wav(heard_of(*plan.sound, static_cast<double>(plan.frames) / plan.fps),
-                         folder / files.sound);
+                         written[files.sound]);
     Json record = sidecar_of(plan, std::move(shown), pictures);
     for (const fs::path& file : files.listed())
-        record["files"][file.generic_string()] = media::sha256_of_file(folder / file);
-    report::write_text(folder / files.sidecar, record.dump(2) + "\n");
+        record["files"][file.generic_string()] = media::sha256_of_file(written[file]);
+    write_file(sidecar, json_text(record, 2) + "\n");
+    worker.monitor.throw_if_stopped();
+    outputs.commit();
     if (unmatched && !plan.render_is_shared) remove_unmatched_render(plan, folder);
 }
 

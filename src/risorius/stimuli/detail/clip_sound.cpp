@@ -24,7 +24,7 @@ ClipSound SoundPlans::at(const design::Condition& condition, double duration_s,
                             format_number(duration_s);
     if (const auto found = known_.find(key); found != known_.end()) return found->second;
 
-    const media::Sound recording = media::read_recording(*condition.audio);
+    const media::Recording recording = media::open_recording(*condition.audio);
     ClipSound out;
     out.file = *condition.audio;
     out.sha256 = media::sha256_of_file(file);
@@ -33,8 +33,8 @@ ClipSound SoundPlans::at(const design::Condition& condition, double duration_s,
         throw Error(place, "an audio_start_s with which the clip contains some of the recording",
                     format_number(condition.audio_start_s));
     out.offset_samples = std::llround(condition.audio_start_s * recording.rate_hz);
-    out.loudness = media::loudness_of(
-        media::heard(recording, out.offset_samples, std::llround(duration_s * recording.rate_hz)));
+    out.loudness = media::loudness_of(recording, out.offset_samples,
+                                      std::llround(duration_s * recording.rate_hz));
     if (lufs) {
         if (!std::isfinite(out.loudness.integrated_lufs))
             throw Error(place, "at least 0.4 s of sound, to match its loudness",
@@ -54,14 +54,15 @@ ClipSound SoundPlans::at(const design::Condition& condition, double duration_s,
     return known_.emplace(key, out).first->second;
 }
 
-std::shared_ptr<const media::Sound> sound_of(const ClipSound& sound) {
-    return std::make_shared<media::Sound>(
-        media::amplified(media::read_recording(sound.file), sound.gain_db));
+std::shared_ptr<const media::Recording> sound_of(const ClipSound& sound) {
+    auto recording = std::make_shared<media::Recording>(media::open_recording(sound.file));
+    recording->gain_db = sound.gain_db;
+    return recording;
 }
 
 media::Sound heard_of(const ClipSound& sound, double duration_s) {
-    const std::shared_ptr<const media::Sound> whole = sound_of(sound);
-    return media::heard(*whole, sound.offset_samples, std::llround(duration_s * whole->rate_hz));
+    const std::shared_ptr<const media::Recording> whole = sound_of(sound);
+    return media::part_of(*whole, sound.offset_samples, std::llround(duration_s * whole->rate_hz));
 }
 
 }  // namespace risorius::stimuli

@@ -37,8 +37,8 @@ class SoundPlans {
     std::map<std::string, ClipSound> known_;
 };
 
-/// Returns the whole recording with its gain, for the sound track of the video.
-std::shared_ptr<const media::Sound> sound_of(const ClipSound& sound);
+/// Returns the recording with its gain, for the sound track of the video.
+std::shared_ptr<const media::Recording> sound_of(const ClipSound& sound);
 /// Returns the part of the recording that the clip contains, starting at the first frame.
 media::Sound heard_of(const ClipSound& sound, double duration_s);
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
-#include "risorius/report/atomic_file.h"
+#include "risorius/core/json_text.h"
 #include "risorius/stimuli/detail/experiment_programs.h"
 
 namespace risorius::stimuli {
@@ -37,7 +37,7 @@ std::string screen_colour(const BatchPlan& plan) {
 std::string plain_text(const Json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number()) return format_number(value.get<double>());
-    return value.is_null() ? "" : value.dump();
+    return value.is_null() ? "" : json_text(value);
 }
 
 /// The key of the right answer for a clip; empty when the design does not name one.
@@ -138,8 +138,8 @@ void check_experiment(BatchPlan& plan) {
                              without.front() + (without.size() > 1 ? " the first" : ""));
 }
 
-std::vector<fs::path> write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
-                                       const fs::path& folder) {
+void write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
+                      const WriteFile& write_below) {
     const design::ExperimentOptions& experiment = *plan.experiment;
     const std::vector<Json> rows = condition_rows(plan, records);
     Json answers = Json::array();
@@ -152,22 +152,17 @@ std::vector<fs::path> write_experiment(const BatchPlan& plan, const std::vector<
                         {"repetitions", experiment.repetitions},
                         {"fixation_s", experiment.fixation_s},
                         {"background", screen_colour(plan)}};
-    std::vector<fs::path> files;
     const auto write = [&](const char* name, const std::string& text) {
-        const fs::path file = fs::path("experiment") / name;
-        fs::create_directories((folder / file).parent_path());
-        report::write_text(folder / file, text);
-        files.push_back(file);
+        write_below(fs::path("experiment") / name, text);
     };
     write("conditions.csv", csv_table(rows));
-    write("settings.json", settings.dump(2) + "\n");
+    write("settings.json", json_text(settings, 2) + "\n");
     for (const std::string& program : experiment.programs) {
         if (program == "psychopy") write("experiment.py", psychopy_program());
         if (program == "jspsych")
-            write("index.html", jspsych_page(plan.name, experiment.jspsych_from, settings.dump(1),
-                                             Json(rows).dump(1)));
+            write("index.html", jspsych_page(plan.name, experiment.jspsych_from,
+                                             json_text(settings, 1), json_text(Json(rows), 1)));
     }
-    return files;
 }
 
 }  // namespace risorius::stimuli

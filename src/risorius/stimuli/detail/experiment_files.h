@@ -9,20 +9,19 @@
 ///   experiment/index.html        for jsPsych, in a browser
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
 #include "risorius/stimuli/batch.h"
+#include "risorius/stimuli/detail/write_below.h"
 
 namespace risorius::stimuli {
 
 /// Checks that the design has everything that its experiment names, and adds notes to the plan. Throws Error.
 void check_experiment(BatchPlan& plan);
 
-/// Writes the files. All clips must exist. Returns the names of the files in `folder`.
-std::vector<std::filesystem::path> write_experiment(const BatchPlan& plan,
-                                                    const std::vector<Json>& records,
-                                                    const std::filesystem::path& folder);
+/// Writes the files. All clips must exist.
+void write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
+                      const WriteFile& write_below);
 
 }  // namespace risorius::stimuli

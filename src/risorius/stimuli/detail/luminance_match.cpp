@@ -7,8 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
-#include "risorius/plot/write_chart.h"
-#include "risorius/report/atomic_file.h"
+#include "risorius/core/json_text.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
 
 namespace risorius::stimuli {
@@ -97,12 +96,11 @@ void match_luminance(const fs::path& folder, BatchPlan& plan) {
         clip.match(media::tone_between(match.per_clip ? of.at(clip.condition.of) : all, mean, sd));
 }
 
-std::vector<fs::path> write_luminance_report(const BatchPlan& plan,
-                                             const std::vector<Json>& records,
-                                             const fs::path& folder) {
+std::vector<plot::Chart> write_luminance_report(const BatchPlan& plan,
+                                                const std::vector<Json>& records,
+                                                const WriteFile& write) {
     const design::LuminanceMatch& match = *plan.match.luminance;
-    const fs::path below = "luminance";
-    fs::create_directories(folder / below);
+    const fs::path below = kLuminanceFolder;
     std::string table =
         "stim_id\tset\tcontrol\tmean_before\tsd_before\tmean_after\tsd_after\tgain\toffset\t"
         "cut_off\n";
@@ -130,15 +128,10 @@ std::vector<fs::path> write_luminance_report(const BatchPlan& plan,
                     {"before", described(of.before)},
                     {"after", described(of.after)},
                     {"greatest_cut_off", of.cut_off}};
-    report::write_text(folder / below / "luminance.tsv", table);
-    report::write_text(folder / below / "luminance.json", json.dump(2) + "\n");
-    std::vector<fs::path> files{below / "luminance.tsv", below / "luminance.json"};
-    for (const plot::Chart& chart :
-         {chart_of("mean", "mean of luminance", records, &media::LuminanceSums::mean),
-          chart_of("sd", "standard deviation of luminance", records, &media::LuminanceSums::sd)})
-        for (const std::string& name : plot::write_chart(chart, folder / below))
-            files.push_back(below / name);
-    return files;
+    write(below / "luminance.tsv", table);
+    write(below / "luminance.json", json_text(json, 2) + "\n");
+    return {chart_of("mean", "mean of luminance", records, &media::LuminanceSums::mean),
+            chart_of("sd", "standard deviation of luminance", records, &media::LuminanceSums::sd)};
 }
 
 std::string luminance_text(const std::vector<Json>& records) {

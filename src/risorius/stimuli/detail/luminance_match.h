@@ -17,7 +17,9 @@
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
+#include "risorius/plot/write_chart.h"
 #include "risorius/stimuli/batch.h"
+#include "risorius/stimuli/detail/write_below.h"
 
 namespace risorius::stimuli {
 
@@ -27,10 +29,12 @@ std::vector<std::size_t> unmeasured(const BatchPlan& plan, const std::filesystem
 /// Sets the map of luminance of each clip. All conditions must be measured. Throws Error when the target cannot be reached.
 void match_luminance(const std::filesystem::path& folder, BatchPlan& plan);
 
-/// Writes the report. All clips must exist. Returns the names of the files in `folder`.
-std::vector<std::filesystem::path> write_luminance_report(const BatchPlan& plan,
-                                                          const std::vector<Json>& records,
-                                                          const std::filesystem::path& folder);
+inline constexpr const char* kLuminanceFolder = "luminance";
+
+/// Writes the report, and returns the charts that belong to it in the same folder. All clips must exist.
+std::vector<plot::Chart> write_luminance_report(const BatchPlan& plan,
+                                                const std::vector<Json>& records,
+                                                const WriteFile& write);
 
 /// Returns a summary of the matching in one or two sentences.
 std::string luminance_text(const std::vector<Json>& records);

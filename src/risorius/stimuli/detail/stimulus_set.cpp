@@ -2,17 +2,20 @@
 #include "risorius/stimuli/detail/stimulus_set.h"
 
 #include <algorithm>
-#include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "risorius/core/input_log.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/output_set.h"
 #include "risorius/core/version.h"
 #include "risorius/media/sha256.h"
-#include "risorius/report/atomic_file.h"
+#include "risorius/plot/write_chart.h"
 #include "risorius/report/html_writer.h"
 #include "risorius/stimuli/detail/experiment_files.h"
 #include "risorius/stimuli/detail/luminance_match.h"
-#include "risorius/stimuli/detail/unmatched_render.h"
+#include "risorius/stimuli/detail/own_files.h"
 
 namespace risorius::stimuli {
 
@@ -26,7 +29,7 @@ std::string cell(const Json& value) {
     if (value.is_null()) return kMissing;
     std::string text = value.is_string()   ? value.get<std::string>()
                        : value.is_number() ? format_number(value.get<double>())
-                                           : value.dump();
+                                           : json_text(value);
     for (char& c : text)
         if (c == '\t' || c == '\n' || c == '\r') c = ' ';
     return text.empty() ? kMissing : text;
@@ -172,41 +175,26 @@ std::string overview(const std::string& name, const std::vector<Json>& records,
     return report::html_page(name, html);
 }
 
-/// The files in the folder that `batch` has written for this or an earlier design, found by checksums, sidecars and names.
-std::set<fs::path> written_before(const fs::path& folder) {
-    std::set<fs::path> files;
-    std::ifstream sums(folder / "SHA256SUMS");
-    for (std::string line; std::getline(sums, line);)
-        if (const std::size_t gap = line.find("  "); gap != std::string::npos) {
-            const fs::path file = fs::path(line.substr(gap + 2)).lexically_normal();
-            if (file.is_relative() && *file.begin() != "..") files.insert(file);
-        }
-    if (!fs::is_directory(folder / "stimuli")) return files;
-    for (const auto& entry : fs::directory_iterator(folder / "stimuli")) {
-        const std::string name = entry.path().filename().string();
-        if (!name.starts_with("stim-")) continue;
-        files.insert(fs::path("stimuli") / name);
-        // An unfinished clip has no sidecar and no checksum.
-        const std::string clip = name.substr(5, name.find('_') - 5);
-        files.insert(fs::path("overview") / (clip + ".png"));
-        files.insert(fs::path("code/scripts") / (clip + ".json"));
-    }
-    return files;
+/// Removes the files that `batch` has written for an earlier design and that this set does not contain. Other files stay.
+void remove_former_files(const fs::path& folder, const std::set<fs::path>& kept,
+                         OutputSet& outputs) {
+    for (const fs::path& file : own_files(folder))
+        if (kept.count(file) == 0) outputs.removal(folder / file);
 }
 
-/// Removes the files that `batch` has written for an earlier design and that this set does not contain. Other files stay.
-void remove_former_files(const fs::path& folder, const std::set<fs::path>& kept) {
-    for (const fs::path& file : written_before(folder))
-        if (kept.count(file) == 0 && fs::is_regular_file(folder / file)) fs::remove(folder / file);
-    for (const char* below : kIntermediateFolders) fs::remove_all(folder / below);
-    for (const char* below : {"stimuli", "overview", "code/scripts", "luminance"})
-        if (fs::is_directory(folder / below) && fs::is_empty(folder / below))
-            fs::remove(folder / below);
+/// Removes the folders of a set that have become empty.
+void remove_empty_folders(const fs::path& folder) {
+    std::error_code ignored;
+    for (const char* below : {"code/scripts", "overview", "luminance", "experiment", "intermediate",
+                              "takes", "stimuli"})
+        if (!fs::is_symlink(fs::symlink_status(folder / below, ignored)))
+            fs::remove(folder / below, ignored);  // fails for one that is not empty, as intended
 }
 
 }  // namespace
 
-void write_set(const BatchPlan& plan, const fs::path& design, const fs::path& folder) {
+void write_set(const BatchPlan& plan, const fs::path& design, const fs::path& folder,
+               const ProgressMonitor& monitor) {
     std::set<fs::path> files;
     std::vector<Json> records;
     for (const ClipPlan& clip : plan.clips) {
@@ -215,37 +203,57 @@ void write_set(const BatchPlan& plan, const fs::path& design, const fs::path& fo
         for (const fs::path& file : its.listed()) files.insert(file);
         records.push_back(clip_record(clip, folder));
     }
-    const auto write = [&](const char* name, const std::string& text) {
-        fs::create_directories((folder / name).parent_path());
-        report::write_text(folder / name, text);
+    OutputSet outputs(folder);
+    std::map<fs::path, fs::path> fresh;
+    const WriteFile write = [&](const fs::path& name, const std::string& text) {
+        fresh[name] = outputs.file(folder / name);
+        write_file(fresh[name], text);
         files.insert(name);
     };
-    write(
-        "dataset_description.json",
-        Json{{"Name", plan.name},
-             {"BIDSVersion", "1.10.0"},
-             {"DatasetType", "derivative"},
-             {"GeneratedBy",
-              Json::array({{{"Name", "Risorius"},
-                            {"Version", kVersion},
-                            {"Description", "Simulated and rendered: every face is synthetic"}}})}}
-                .dump(2) +
-            "\n");
+    write("dataset_description.json",
+          json_text(Json{{"Name", plan.name},
+                         {"BIDSVersion", "1.10.0"},
+                         {"DatasetType", "derivative"},
+                         {"GeneratedBy",
+                          Json::array({{{"Name", "Risorius"},
+                                        {"Version", kVersion},
+                                        {"Description",
+                                         "Simulated and rendered: every face is synthetic"}}})}},
+                    2) +
+              "\n");
     write("stimuli/stimuli.tsv", catalogue(records, plan.clips));
-    write("stimuli/stimuli.json", catalogue_columns(records, plan.clips).dump(2) + "\n");
+    write("stimuli/stimuli.json", json_text(catalogue_columns(records, plan.clips), 2) + "\n");
     write("triggers.tsv", triggers(records));
-    write("code/design.json", text_of_file(design));
+    // It may be the design that is read.
+    if (std::error_code none; fs::equivalent(design, folder / "code/design.json", none))
+        files.insert("code/design.json");
+    else
+        write("code/design.json", text_of_file(design));
     write("index.html", overview(plan.name, records, plan.clips));
     if (plan.match.luminance)
-        for (const fs::path& file : write_luminance_report(plan, records, folder))
-            files.insert(file);
-    if (plan.experiment)
-        for (const fs::path& file : write_experiment(plan, records, folder)) files.insert(file);
-    remove_former_files(folder, files);
+        for (const plot::Chart& chart : write_luminance_report(plan, records, write)) {
+            // gnuplot writes where the first of its files is to be.
+            const fs::path below = outputs.file(folder / kLuminanceFolder / (chart.name + ".svg"));
+            for (const std::string& name : plot::write_chart(chart, below.parent_path())) {
+                const fs::path file = fs::path(kLuminanceFolder) / name;
+                fresh[file] = below.parent_path() / name;
+                if (fresh[file] != below) outputs.file(folder / file);
+                files.insert(file);
+            }
+        }
+    if (plan.experiment) write_experiment(plan, records, write);
+    remove_former_files(folder, files, outputs);
+    const ReadingFormerOutput former;
     std::string sums;
-    for (const fs::path& file : files)
-        sums += media::sha256_of_file(folder / file) + "  " + file.generic_string() + "\n";
-    report::write_text(folder / "SHA256SUMS", sums);
+    for (const fs::path& file : files) {
+        const auto written = fresh.find(file);
+        sums += media::sha256_of_file(written == fresh.end() ? folder / file : written->second) +
+                "  " + file.generic_string() + "\n";
+    }
+    write_file(outputs.file(folder / "SHA256SUMS"), sums);
+    monitor.throw_if_stopped();
+    outputs.commit();
+    remove_empty_folders(folder);
 }
 
 }  // namespace risorius::stimuli

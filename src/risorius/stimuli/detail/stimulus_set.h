@@ -12,12 +12,14 @@
 
 #include <filesystem>
 
+#include "risorius/core/progress_monitor.h"
 #include "risorius/stimuli/batch.h"
 
 namespace risorius::stimuli {
 
-/// Writes the files. All clips must exist. Removes files of clips that only an earlier design had.
+/// Writes the files. All clips must exist. Removes files of clips that only an earlier design had, see own_files.h. All of this
+/// happens together, or not at all.
 void write_set(const BatchPlan& plan, const std::filesystem::path& design,
-               const std::filesystem::path& folder);
+               const std::filesystem::path& folder, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::stimuli

@@ -6,9 +6,11 @@
 
 #include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
+#include "risorius/core/input_log.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/output_set.h"
 #include "risorius/media/sha256.h"
 #include "risorius/media/video_reader.h"
-#include "risorius/report/atomic_file.h"
 #include "risorius/scene/face_oval.h"
 
 namespace risorius::stimuli {
@@ -25,6 +27,7 @@ fs::path intermediate_file(const std::string& clip, const char* ending,
 
 std::optional<UnmatchedRender> complete_render(const ClipPlan& plan, const std::string& clip,
                                                const fs::path& folder, const char* below) {
+    const ReadingFormerOutput former;
     const fs::path record_file = folder / intermediate_file(clip, ".json", below);
     if (!fs::exists(record_file)) return {};
     try {
@@ -90,36 +93,40 @@ std::optional<UnmatchedRender> find_unmatched_render(const ClipPlan& plan, const
 void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker) {
     const std::string& clip = plan.condition.clip;
     const fs::path& folder = worker.folder;
-    const fs::path video_file = folder / intermediate_file(clip, ".mkv"),
-                   table_file = folder / intermediate_file(clip, ".tsv"),
-                   record_file = folder / intermediate_file(clip, ".json");
-    fs::create_directories(video_file.parent_path());
-    fs::remove(record_file);
+    OutputSet outputs(folder, OutputSet::Then::kRunGoesOn);
+    // The record first: it tells that the folder is one of `batch`.
+    const fs::path record_file = outputs.file(folder / intermediate_file(clip, ".json")),
+                   video_file = outputs.file(folder / intermediate_file(clip, ".mkv")),
+                   table_file = outputs.file(folder / intermediate_file(clip, ".tsv"));
 
     const animate::RenderJob job = render_job_of(plan, video_file, {}, worker);
     media::VideoWriter video(video_file, job.video);
     const animate::RenderResult result = animate::run_render_job(
         job, worker.session, [&](const Image& image) { video.append(image); }, worker.monitor);
     video.finish();
-    report::write_text(table_file, result.table);
+    write_file(table_file, result.table);
 
     // Luminance is measured on the decoded pictures.
     const animate::FrameRows rows = animate::frame_rows(result.table);
+    const ReadingFormerOutput own;
     media::VideoReader reader(video_file);
     media::LuminanceSums sums;
     for (int frame = 0; frame < reader.frames(); ++frame)
         sums.add(reader.frame(frame), measured_part(plan, rows, frame));
-    report::write_text(record_file, Json{{"film_sha256", plan.render_sha256},
-                                         {"video_sha256", media::sha256_of_file(video_file)},
-                                         {"table_sha256", media::sha256_of_file(table_file)},
-                                         {"luminance", json_of(sums)},
-                                         {"run", portable_record(result.record)}}
-                                            .dump(1) +
-                                        "\n");
+    write_file(record_file, json_text(Json{{"film_sha256", plan.render_sha256},
+                                           {"video_sha256", media::sha256_of_file(video_file)},
+                                           {"table_sha256", media::sha256_of_file(table_file)},
+                                           {"luminance", json_of(sums)},
+                                           {"run", portable_record(result.record)}},
+                                      1) +
+                                "\n");
+    worker.monitor.throw_if_stopped();
+    outputs.commit();
 }
 
 std::optional<media::LuminanceSums> measured_luminance(const ClipPlan& plan,
                                                        const fs::path& folder) {
+    const ReadingFormerOutput former;
     try {
         for (const char* below : kIntermediateFolders) {
             const fs::path file = folder / intermediate_file(plan.condition.clip, ".json", below);
@@ -140,11 +147,13 @@ std::optional<media::LuminanceSums> measured_luminance(const ClipPlan& plan,
 }
 
 void remove_unmatched_render(const ClipPlan& plan, const fs::path& folder) {
-    for (const char* below : kIntermediateFolders)
-        for (const char* ending : {".json", ".tsv", ".mkv"}) {
+    for (const char* below : kIntermediateFolders) {
+        if (!complete_render(plan, plan.condition.clip, folder, below)) continue;
+        for (const char* ending : {".mkv", ".tsv", ".json"}) {
             std::error_code ignored;
             fs::remove(folder / intermediate_file(plan.condition.clip, ending, below), ignored);
         }
+    }
 }
 
 }  // namespace risorius::stimuli

@@ -2,6 +2,7 @@
 #include "risorius/track/detail/emg_source.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "risorius/core/existing_file.h"
@@ -64,25 +65,60 @@ int column_named(const JsonCursor& json, const Recording& recording) {
     json.fail(expected, "\"" + name + "\"");
 }
 
-/// Reads the rate, Hz, and the start of the recording, s.
-std::pair<double, double> read_clock(const JsonCursor& json, const Recording& recording) {
+/// When the samples of a recording were taken.
+struct Clock {
+    double rate_hz = 0;
+    double start_s = 0;           ///< of the first sample in the script's time
+    std::vector<double> times_s;  ///< of every sample
+};
+
+Clock read_clock(const JsonCursor& json, const Recording& recording) {
     const auto rate = json.find("rate_hz"), time = json.find("time_column");
     if (rate.has_value() == time.has_value())
         json.fail("either \"rate_hz\" or \"time_column\"", rate ? "both" : "neither");
-    if (rate) return {rate->number({1, 1e6}), 0};
+    const auto origin = json.find("time_origin");
+    const bool from_first_row = origin && origin->one_of({"clock", "first_row"}) == "first_row";
+    if (rate) {
+        if (origin) origin->fail("no such key beside \"rate_hz\"");
+        Clock clock{.rate_hz = rate->number({1, 1e6}), .start_s = 0, .times_s = {}};
+        for (std::size_t i = 0; i < recording.sample_count(); ++i)
+            clock.times_s.push_back(static_cast<double>(i) / clock.rate_hz);
+        return clock;
+    }
     const int column = column_named(*time, recording);
-    const double rate_hz = recording.rate_hz(column);
-    return {rate_hz, recording.samples(column).front()};
+    Clock clock{
+        .rate_hz = recording.rate_hz(column), .start_s = 0, .times_s = recording.samples(column)};
+    if (!from_first_row) clock.start_s = clock.times_s.front();
+    return clock;
+}
+
+/// A time for messages, rounded to a microsecond.
+std::string seconds(double time_s) { return format_number(std::round(1e6 * time_s) / 1e6) + " s"; }
+
+/// Throws Error when no sample lies within the script. Adds a note when the recording goes on after its end.
+void check_within_script(const JsonCursor& json, const Recording& recording, double first_s,
+                         double last_s, double duration_s, std::vector<std::string>& notes) {
+    const std::string file = recording.file().string();
+    if (first_s > duration_s || last_s < 0)
+        json.fail(
+            "a recording with samples in the script, which lasts from 0 to " + seconds(duration_s),
+            file + " from " + seconds(first_s) + " to " + seconds(last_s) +
+                "; \"time_origin\": \"first_row\" lets its first row be at 0 s");
+    const double step_s = 1e-6 + (last_s - first_s) / static_cast<double>(recording.sample_count());
+    if (last_s > duration_s + step_s)
+        notes.push_back(file + ": lasts until " + seconds(last_s) +
+                        ", after the end of the script at " + seconds(duration_s));
 }
 
 }  // namespace
 
-std::vector<EmgTrack> read_emg(const JsonCursor& json, const ChannelTable& channels) {
-    json.allow_keys({"file", "rate_hz", "time_column", "channels", "envelope", "band_pass_hz",
-                     "notch_hz", "low_pass_hz", "order", "maximum", "maximum_percentile",
-                     "rest_percentile", "delay_s"});
+EmgTracks read_emg(const JsonCursor& json, const ChannelTable& channels, double duration_s) {
+    json.allow_keys({"file", "rate_hz", "time_column", "time_origin", "channels", "envelope",
+                     "band_pass_hz", "notch_hz", "low_pass_hz", "order", "maximum",
+                     "maximum_percentile", "rest_percentile", "delay_s"});
     const Recording recording = Recording::read_file(existing_file(json.at("file")));
-    const auto [rate_hz, start_s] = read_clock(json, recording);
+    const Clock clock = read_clock(json, recording);
+    const double rate_hz = clock.rate_hz;
     const EmgFilters filters = read_filters(json, rate_hz);
     const std::size_t shortest = signal::padding_of(filters, rate_hz) + 1;
     if (recording.sample_count() < std::max<std::size_t>(shortest, 2))
@@ -105,15 +141,23 @@ std::vector<EmgTrack> read_emg(const JsonCursor& json, const ChannelTable& chann
                 maxima->at(column).fail("a column of " + recording.file().string(),
                                         "\"" + column + "\"");
 
-    std::vector<EmgTrack> tracks;
+    EmgTracks out;
+    const double start_s = clock.start_s + delay_s;
+    check_within_script(json, recording, start_s,
+                        start_s + static_cast<double>(recording.sample_count() - 1) / rate_hz,
+                        duration_s, out.notes);
     const JsonCursor table = json.at("channels");
     for (const std::string& muscle : table.keys()) {
         const JsonCursor named = table.at(muscle);
         const MuscleFraction fraction = muscle_named(named, muscle, channels);
         const double min = channels.find(fraction.muscle)->min;
         const int column = column_named(named, recording);
+        Recording::Bridged bridged = recording.bridged_samples(column, clock.times_s);
+        for (std::string& note : bridged.notes)
+            if (std::find(out.notes.begin(), out.notes.end(), note) == out.notes.end())
+                out.notes.push_back(std::move(note));
         std::vector<double> samples =
-            signal::emg_envelope(recording.samples(column), rate_hz, filters);
+            signal::emg_envelope(std::move(bridged.samples), rate_hz, filters);
 
         const double rest =
             rest_percentile > 0 ? signal::percentile(samples, rest_percentile) : 0.0;
@@ -126,11 +170,11 @@ std::vector<EmgTrack> read_emg(const JsonCursor& json, const ChannelTable& chann
                       format_number(maximum));
         for (double& value : samples)
             value = min + (1 - min) * std::clamp((value - rest) / (maximum - rest), 0.0, 1.0);
-        tracks.push_back({muscle, SampledCurve(std::move(samples), rate_hz, start_s + delay_s),
-                          expand(fraction, channels)});
+        out.tracks.push_back({muscle, SampledCurve(std::move(samples), rate_hz, start_s),
+                              expand(fraction, channels)});
     }
-    if (tracks.empty()) table.fail("at least one muscle");
-    return tracks;
+    if (out.tracks.empty()) table.fail("at least one muscle");
+    return out;
 }
 
 }  // namespace risorius::track

@@ -21,8 +21,15 @@
 
 namespace risorius::track {
 
+/// The "emg" of a script as read.
+struct EmgTracks {
+    std::vector<EmgTrack> tracks;
+    std::vector<std::string>
+        notes;  ///< values that were missing; a recording that goes on after the script
+};
+
 /// Reads "emg" and its recordings. Keys, ranges and defaults are in docs/formats/script.md. Throws Error that names the script,
-/// or file, line and column of the recording.
-std::vector<EmgTrack> read_emg(const JsonCursor& json, const ChannelTable& channels);
+/// or file, line and column of the recording; also when the recording lies outside of the script from 0 to `duration_s`.
+EmgTracks read_emg(const JsonCursor& json, const ChannelTable& channels, double duration_s);
 
 }  // namespace risorius::track

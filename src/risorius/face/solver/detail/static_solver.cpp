@@ -18,7 +18,7 @@ namespace {
 constexpr double kLoose_n_per_m = 1e-6;
 // Farther from equilibrium the exact H is hardly ever positive definite.
 constexpr double kFar_m = 0.5e-3;
-constexpr double kGain =
+constexpr double kEnoughGain =
     0.2;  // H is factored again after a round that leaves more than this fraction of |B g|
 constexpr double kStale =
     5;  // or that starts with this multiple of what the last round left: contacts have changed
@@ -241,7 +241,7 @@ StepStats StaticSolver::solve_equilibrium(const Eigen::VectorXd& activation,
         figures.iterations += std::max(1, report.iterations);
         figures.evaluations += report.evaluations;
         const double still = last_left = left_at();
-        solved = still <= std::max(kGain * left, 0.5 * options.tolerance_m);
+        solved = still <= std::max(kEnoughGain * left, 0.5 * options.tolerance_m);
         curvature = still > kFar_m ? solve::Curvature::kPositive : solve::Curvature::kExact;
         if (!solved) fixed_point.forget();
         if (figures.iterations < kPatience) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/io/detail/scene_reader.h"
+#include "tools/import_mesh/scene_reader.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
@@ -8,15 +9,17 @@
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
+#include <cctype>
+#include <cstdio>
 #include <cstring>
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "risorius/core/error.h"
+#include "risorius/geom/part_sheets.h"
 
-namespace risorius::io::detail {
+namespace risorius::import_mesh {
 namespace {
 
 Rigid::MatrixType matrix4(const aiMatrix4x4& m) {
@@ -37,6 +40,32 @@ double stated_metres_per_unit(const aiScene& scene) {
     if (scene.mMetaData->Get("UnitScaleFactor", as_float) && as_float > 0)
         return static_cast<double>(as_float) * kMetresPerCentimetre;
     return 1.0;
+}
+
+/// Opens regular files to read, and nothing else.
+class FilesToRead : public Assimp::DefaultIOSystem {
+  public:
+    bool Exists(const char* file) const override {
+        std::error_code ignored;
+        return std::filesystem::is_regular_file(file, ignored);
+    }
+    Assimp::IOStream* Open(const char* file, const char* mode) override {
+        return *mode == 'r' && Exists(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+    }
+};
+
+/// assimp loses the first triangles of a strip in a PLY file.
+void refuse_strips(const std::filesystem::path& file) {
+    constexpr std::size_t kLongestHeader = 1 << 16;
+    std::string header(kLongestHeader, '\0');
+    std::FILE* in = std::fopen(file.c_str(), "rb");
+    if (in == nullptr) return;
+    header.resize(std::fread(header.data(), 1, header.size(), in));
+    std::fclose(in);
+    header.resize(std::min(header.find("end_header"), header.size()));
+    if (header.find("element tristrips") != std::string::npos)
+        throw NoMesh(
+            {file.string(), "faces (export the mesh as triangles)", "strips of triangles"});
 }
 
 bool has_polygons(const aiMesh& mesh) {
@@ -95,6 +124,7 @@ class SceneReader {
             require_valid_indices(*meshes[m]);
             const int group = new_group(node, meshes, m);
             if (!keep_vertices_ && is_unrolled(*meshes[m])) {
+                mesh_.in_file_order = false;
                 add_faces(*meshes[m], world, group, join_corners(*meshes[m], world, vertex_at));
                 continue;
             }
@@ -121,9 +151,10 @@ class SceneReader {
         for (unsigned f = 0; f < mesh.mNumFaces; ++f)
             for (unsigned k = 0; k < mesh.mFaces[f].mNumIndices; ++k)
                 if (mesh.mFaces[f].mIndices[k] >= mesh.mNumVertices)
-                    throw Error(name_ + ":face " + std::to_string(f),
-                                "vertices in 0 .. " + std::to_string(mesh.mNumVertices - 1),
-                                std::to_string(mesh.mFaces[f].mIndices[k]));
+                    throw NoMesh({name_ + ":face " + std::to_string(f),
+                                  "vertices in 0 .. " +
+                                      std::to_string(static_cast<long>(mesh.mNumVertices) - 1),
+                                  std::to_string(mesh.mFaces[f].mIndices[k])});
     }
 
     static Vec3 transformed(const Matrix4& world, const aiVector3D& p) {
@@ -228,18 +259,32 @@ class SceneReader {
 
 }  // namespace
 
-geom::PolygonMesh read_scene(const std::filesystem::path& file, bool keep_vertices) {
+geom::PolygonMesh read_scene(const std::filesystem::path& file) {
+    std::string ending = file.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (ending == ".ply") refuse_strips(file);
     Assimp::Importer importer;
+    importer.SetIOHandler(new FilesToRead);  // which the importer owns
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     const aiScene* scene = importer.ReadFile(file.string(), 0);
     if (!scene || !scene->mRootNode)
-        throw Error(file.string(), "a mesh that assimp can read", importer.GetErrorString());
-    geom::PolygonMesh mesh = SceneReader(*scene, file.string(), keep_vertices).read();
-    if (mesh.face_count() == 0) throw Error(file.string(), "faces", "none");
-    mesh.positions *= stated_metres_per_unit(*scene);
+        throw NoMesh({file.string(), "a mesh that assimp can read", importer.GetErrorString()});
+    geom::PolygonMesh mesh = SceneReader(*scene, file.string(), ending == ".ply").read();
+    if (mesh.face_count() == 0) throw NoMesh({file.string(), "faces", "none"});
+    const double unit_m = stated_metres_per_unit(*scene);
+    mesh.positions *= unit_m;
+    if (!mesh.in_file_order) geom::part_sheets(mesh);
+    // These state a unit and an axis, which assimp puts into the first node.
+    if (ending == ".fbx" || ending == ".dae") {
+        mesh.from_file = matrix4(scene->mRootNode->mTransformation);
+        mesh.from_file.topRows<3>() *= unit_m;
+    }
+    // A file of triangles alone has no list of vertices whose order could be lost.
+    if (ending == ".stl") mesh.in_file_order = true;
     return mesh;
 }
 
-}  // namespace risorius::io::detail
+}  // namespace risorius::import_mesh

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/stimuli/detail/own_files.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "risorius/core/error.h"
+#include "risorius/core/input_log.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/read_file.h"
+#include "risorius/media/sha256.h"
+#include "risorius/stimuli/detail/unmatched_render.h"
+
+namespace risorius::stimuli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr FileKind kSums{"a list of checksums", 100 * kMegabyte};
+constexpr FileKind kShellScript{"a script of the shell", kMegabyte};
+
+/// The files of a set beside those of its clips, see stimulus_set.h and experiment_files.h.
+constexpr std::array kFilesOfSet{"dataset_description.json",  "stimuli/stimuli.tsv",
+                                 "stimuli/stimuli.json",      "triggers.tsv",
+                                 "code/design.json",          "index.html",
+                                 "luminance/luminance.tsv",   "luminance/luminance.json",
+                                 "luminance/mean.svg",        "luminance/mean.png",
+                                 "luminance/mean.gp",         "luminance/mean.data.csv",
+                                 "luminance/sd.svg",          "luminance/sd.png",
+                                 "luminance/sd.gp",           "luminance/sd.data.csv",
+                                 "experiment/conditions.csv", "experiment/settings.json",
+                                 "experiment/experiment.py",  "experiment/index.html"};
+
+/// Whether it is a regular file that is reached without links.
+bool is_plain_file(const fs::path& folder, const fs::path& relative) {
+    fs::path path = folder;
+    std::error_code ignored;
+    for (const fs::path& part : relative) {
+        if (part == "." || part == "..") return false;
+        path /= part;
+        if (fs::is_symlink(fs::symlink_status(path, ignored))) return false;
+    }
+    return fs::is_regular_file(fs::symlink_status(path, ignored));
+}
+
+bool has_bytes(const fs::path& folder, const fs::path& relative, const std::string& sha256) {
+    return is_plain_file(folder, relative) && media::sha256_of_file(folder / relative) == sha256;
+}
+
+/// The names of the files in a folder below that is no link, sorted.
+std::vector<std::string> names_in(const fs::path& folder, const char* below) {
+    std::vector<std::string> names;
+    std::error_code ignored;
+    if (!fs::is_directory(fs::symlink_status(folder / below, ignored))) return names;
+    for (const auto& entry : fs::directory_iterator(folder / below, ignored))
+        names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+/// The object in a JSON file; none when it holds anything else.
+std::optional<Json> object_of(const fs::path& folder, const fs::path& relative) {
+    if (!is_plain_file(folder, relative)) return {};
+    try {
+        Json json = JsonCursor::read_file(folder / relative).json();
+        if (json.is_object()) return json;
+    } catch (const Error&) {
+        return {};  // a file of someone else
+    }
+    return {};
+}
+
+std::string text_at(const Json& json, const char* key) {
+    const auto found = json.find(key);
+    return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+/// The name of the clip that a sidecar belongs to; empty for any other file.
+std::string clip_of(const Json& record, const std::string& file_name) {
+    const std::string clip = text_at(record, "stim_id");
+    const bool named = file_name == "stim-" + clip + "_video.json" ||
+                       file_name == "stim-" + clip + "_audiovideo.json";
+    return text_at(record, "format") == "risorius-clip" && named ? clip : "";
+}
+
+/// Whether a clip can have this file.
+bool belongs_to(const std::string& clip, const std::string& file) {
+    const std::string stem = "stimuli/stim-" + clip + "_";
+    return file == "overview/" + clip + ".png" || file == "code/scripts/" + clip + ".json" ||
+           (file.starts_with(stem) && file.find('/', stem.size()) == std::string::npos);
+}
+
+void add_clips(const fs::path& folder, std::set<fs::path>& files) {
+    for (const std::string& name : names_in(folder, "stimuli")) {
+        if (!name.starts_with("stim-") || !name.ends_with(".json")) continue;
+        const fs::path sidecar = fs::path("stimuli") / name;
+        const std::optional<Json> record = object_of(folder, sidecar);
+        const std::string clip = record ? clip_of(*record, name) : "";
+        if (clip.empty() || !record->contains("files") || !record->at("files").is_object())
+            continue;
+        files.insert(sidecar);
+        for (const auto& [file, sha256] : record->at("files").items())
+            if (sha256.is_string() && belongs_to(clip, file) &&
+                has_bytes(folder, file, sha256.get<std::string>()))
+                files.insert(file);
+    }
+}
+
+void add_renders(const fs::path& folder, std::set<fs::path>& files) {
+    for (const char* below : kIntermediateFolders)
+        for (const std::string& name : names_in(folder, below)) {
+            if (!name.ends_with(".json")) continue;
+            const fs::path file = fs::path(below) / name;
+            const std::optional<Json> record = object_of(folder, file);
+            if (!record || text_at(*record, "film_sha256").empty()) continue;
+            const fs::path video = fs::path(file).replace_extension(".mkv"),
+                           table = fs::path(file).replace_extension(".tsv");
+            if (!has_bytes(folder, video, text_at(*record, "video_sha256")) ||
+                !has_bytes(folder, table, text_at(*record, "table_sha256")))
+                continue;
+            files.insert({file, video, table});
+        }
+}
+
+void add_listed(const fs::path& folder, std::set<fs::path>& files) {
+    if (!is_plain_file(folder, "SHA256SUMS")) return;
+    std::istringstream sums(read_file(folder / "SHA256SUMS", kSums));
+    for (std::string line; std::getline(sums, line);) {
+        const std::size_t gap = line.find("  ");
+        if (gap == std::string::npos) continue;
+        const std::string file = line.substr(gap + 2);
+        if (std::find(kFilesOfSet.begin(), kFilesOfSet.end(), file) != kFilesOfSet.end() &&
+            has_bytes(folder, file, line.substr(0, gap)))
+            files.insert(file);
+    }
+}
+
+/// Whether the file that describes a data set says that `batch` made it.
+bool is_described(const fs::path& folder) {
+    const std::optional<Json> json = object_of(folder, "dataset_description.json");
+    if (!json || !json->contains("GeneratedBy") || !json->at("GeneratedBy").is_array())
+        return false;
+    for (const Json& by : json->at("GeneratedBy"))
+        if (by.is_object() && text_at(by, "Name") == "Risorius") return true;
+    return false;
+}
+
+/// Whether a job array has begun the set.
+bool has_job_script(const fs::path& folder) {
+    return is_plain_file(folder, "code/slurm.sh") &&
+           read_file(folder / "code/slurm.sh", kShellScript).find(kJobScriptMark) !=
+               std::string::npos;
+}
+
+/// Whether `batch` has made a clip, or rendered one.
+bool has_clip(const fs::path& folder) {
+    for (const std::string& name : names_in(folder, "stimuli"))
+        if (name.starts_with("stim-") && name.ends_with(".json"))
+            if (const auto record = object_of(folder, fs::path("stimuli") / name);
+                record && !clip_of(*record, name).empty())
+                return true;
+    for (const char* below : kIntermediateFolders)
+        for (const std::string& name : names_in(folder, below))
+            if (name.ends_with(".json"))
+                if (const auto record = object_of(folder, fs::path(below) / name);
+                    record && !text_at(*record, "film_sha256").empty())
+                    return true;
+    return false;
+}
+
+/// Whether there is any file but the private ones of runs, in the folder or below.
+bool has_files(const fs::path& folder) {
+    for (auto entry = fs::recursive_directory_iterator(folder);
+         entry != fs::recursive_directory_iterator(); ++entry) {
+        if (entry.depth() == 0 && entry->path().filename().string().starts_with(".risorius-"))
+            entry.disable_recursion_pending();
+        else if (!entry->is_directory() || entry->is_symlink())
+            return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+void check_own_folder(const fs::path& folder) {
+    if (!fs::exists(folder)) return;
+    if (!fs::is_directory(folder))
+        throw Error(folder.string(), "a folder, or nothing yet", "a file");
+    const ReadingFormerOutput former;
+    if (has_files(folder) && !is_described(folder) && !has_job_script(folder) && !has_clip(folder))
+        throw Error(folder.string(), "an empty folder, or one that `batch` has begun",
+                    "a folder with other files");
+}
+
+std::set<fs::path> own_files(const fs::path& folder) {
+    const ReadingFormerOutput former;
+    std::set<fs::path> files = own_renders(folder);
+    add_clips(folder, files);
+    add_listed(folder, files);
+    return files;
+}
+
+std::set<fs::path> own_renders(const fs::path& folder) {
+    const ReadingFormerOutput former;
+    std::set<fs::path> files;
+    add_renders(folder, files);
+    return files;
+}
+
+}  // namespace risorius::stimuli

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// What the program leaves when it is stopped, when it cannot write, and when an output is something else already.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <thread>
+
+#include "scenario/run_program.h"
+
+namespace risorius::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+using Clock = std::chrono::steady_clock;
+
+const std::string kProgram = RISORIUS_BINARY_DIR "/risorius";
+const std::string kHello = RISORIUS_SOURCE_DIR "/samples/hello/script.json";
+
+void write(const fs::path& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+}
+
+/// A script of two frames.
+std::string clip_in(const Folder& folder) {
+    write(folder / "clip.json", R"({"format": "risorius-script", "version": 1, "fps": 20,
+        "duration_s": 0.1, "rig": ")" RISORIUS_SOURCE_DIR R"(/rigs/adult/rig.json"})");
+    return "render clip.json --draft --size 64x64 ";
+}
+
+/// A tenth of a second of sound: 16 bits, 8 kHz, one channel.
+void write_tone(const fs::path& file) {
+    const std::string samples(1600, '\x11');
+    const auto number = [](std::uint32_t value, int bytes) {
+        std::string out;
+        for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 255);
+        return out;
+    };
+    write(file, "RIFF" + number(36 + 1600, 4) + "WAVEfmt " + number(16, 4) + number(1, 2) +
+                    number(1, 2) + number(8000, 4) + number(16000, 4) + number(2, 2) +
+                    number(16, 2) + "data" + number(1600, 4) + samples);
+}
+
+/// The program, started in the background with signals as a shell in the foreground would leave them.
+pid_t start(const std::vector<std::string>& arguments, const Folder& folder) {
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    for (const int signal : {SIGINT, SIGHUP, SIGTERM}) ::signal(signal, SIG_DFL);
+    if (::chdir(folder.path().c_str()) != 0) ::_exit(9);
+    if (!std::freopen("/dev/null", "w", stdout) || !std::freopen("errors", "w", stderr)) ::_exit(9);
+    std::vector<char*> words{const_cast<char*>(kProgram.c_str())};
+    for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
+    words.push_back(nullptr);
+    ::execv(kProgram.c_str(), words.data());
+    ::_exit(9);
+}
+
+int wait_for(pid_t child) {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return exit_code(status);
+}
+
+TEST(Outputs, AreNeverInputs) {
+    const Folder folder;
+    const std::string render = clip_in(folder);
+    ASSERT_EQ(run(render + "--still 0 -o p.png", folder.path()).code, 0);
+    const std::string before = bytes_of(folder / "p.png");
+    const Outcome beside =
+        run("sheet clip.json --draft --times 0 --beside p.png -o p.png", folder.path());
+    EXPECT_EQ(beside.code, 2) << beside.errors;
+    EXPECT_NE(beside.errors.find("p.png: expected an output that is not an input"),
+              std::string::npos)
+        << beside.errors;
+    EXPECT_TRUE(bytes_of(folder / "p.png") == before);
+    write_tone(folder / "tone.wav");
+    ASSERT_EQ(run(render + "-o x.mkv --audio tone.wav", folder.path()).code, 0);
+    const std::string video = bytes_of(folder / "x.mkv");
+    EXPECT_EQ(run(render + "--audio x.mkv -o x.mkv", folder.path()).code, 2);
+    EXPECT_TRUE(bytes_of(folder / "x.mkv") == video);
+    for (const char* ending : {"", ".json", ".frames.tsv"})
+        fs::remove(folder / (std::string("x.mkv") + ending));
+    // A script under the name of a video, by another name
+    fs::create_hard_link(folder / "clip.json", folder / "clip.mp4");
+    const Outcome script = run(render + "-o clip.mp4", folder.path());
+    EXPECT_EQ(script.code, 2) << script.errors;
+    EXPECT_EQ(folder.listing(), (Names{"clip.json", "clip.mp4", "tone.wav", "p.png",
+                                       "p.png.frames.tsv", "p.png.json"}));
+}
+
+TEST(Outputs, DoNotReplaceLinksAndPipes) {
+    const Folder folder;
+    const std::string render = clip_in(folder);
+    write(folder / "mine", "mine");
+    fs::create_symlink("mine", folder / "link.mp4");
+    ASSERT_EQ(::mkfifo((folder / "pipe.mp4").c_str(), 0600), 0);
+    for (const char* out : {"link.mp4", "pipe.mp4"}) {
+        const Outcome done = run(render + "-o " + out, folder.path());
+        EXPECT_EQ(done.code, 2) << done.errors;
+        EXPECT_NE(done.errors.find("expected a regular file, or nothing yet, found a "),
+                  std::string::npos)
+            << done.errors;
+    }
+    EXPECT_EQ(bytes_of(folder / "mine"), "mine");
+    EXPECT_TRUE(fs::is_fifo(folder / "pipe.mp4"));
+}
+
+TEST(Outputs, OfTwoRunsBelongToOne) {
+    const Folder folder;
+    const pid_t first = start({"render", kHello, "--draft", "-o", "x.mp4"}, folder);
+    for (int i = 0; i < 1000 && !fs::exists(folder / "x.mp4"); ++i) {
+        bool begun = false;
+        for (const auto& entry : fs::directory_iterator(folder.path()))
+            begun |= entry.path().filename().string().starts_with(".risorius-");
+        if (begun) break;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    const Outcome second = run(clip_in(folder) + "-o x.mp4", folder.path());
+    EXPECT_EQ(second.code, 2) << second.errors;
+    EXPECT_NE(second.errors.find("found process " + std::to_string(first) + " on "),
+              std::string::npos)
+        << second.errors;
+    EXPECT_EQ(run(clip_in(folder) + "-o y.mp4", folder.path()).code, 0);
+    ::kill(first, SIGTERM);
+    EXPECT_EQ(wait_for(first), 130);
+}
+
+TEST(Outputs, AreGoneWithinASecondAfterAStop) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        for (const int after_ms : {300, 1500}) {
+            const Folder folder;
+            const pid_t child = start({"render", kHello, "--draft", "-o", "x/y.mp4"}, folder);
+            std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
+            const Clock::time_point begin = Clock::now();
+            ::kill(child, signal);
+            EXPECT_EQ(wait_for(child), 130) << signal << " after " << after_ms << " ms";
+            EXPECT_LT(std::chrono::duration<double>(Clock::now() - begin).count(), 2);
+            EXPECT_EQ(folder.listing(), Names{"errors"});
+            EXPECT_EQ(bytes_of(folder / "errors"), "risorius: interrupted, nothing was written\n");
+        }
+}
+
+TEST(Outputs, WaitForNoSignalThatTheParentIgnores) {
+    const Folder folder;
+    const Outcome ignored =
+        run(clip_in(folder) + "-o x.mp4 & p=$!; sleep 0.3; kill -INT $p; wait $p", folder.path());
+    EXPECT_EQ(ignored.code, 0);  // a shell lets its background ignore INT
+}
+
+TEST(Outputs, AReportThatCannotBePrintedIsAnError) {
+    const Folder folder;
+    const std::string render = clip_in(folder);
+    for (const char* to : {"> /dev/full", "| true"}) {
+        const std::string command = "bash -c 'cd " + folder.path().string() + " && { " + kProgram +
+                                    " " + render + "--json -o x.mp4 2>errors; echo $? > code; } " +
+                                    to + "'";
+        EXPECT_EQ(exit_code(std::system(command.c_str())), 0);
+        EXPECT_EQ(bytes_of(folder / "code"), "1\n") << to;
+        EXPECT_EQ(bytes_of(folder / "errors"),
+                  "risorius: standard output: the report cannot be written\n");
+        EXPECT_TRUE(fs::exists(folder / "x.mp4"));
+    }
+}
+
+TEST(Outputs, ALimitOfTheSizeOfFilesIsAnError) {
+    const Folder folder;
+    const Outcome done = run(clip_in(folder) + "-o x.mp4", folder.path(), "ulimit -f 1; ");
+    EXPECT_EQ(done.code, 1);
+    EXPECT_NE(done.errors.find("x.mp4"), std::string::npos) << done.errors;
+    EXPECT_EQ(folder.listing(), Names{"clip.json"});
+}
+
+TEST(Outputs, OfARunWithoutMemoryAreGone) {
+    const Folder folder;
+    const Outcome done = run(clip_in(folder) + "-o x.mp4", folder.path(), "ulimit -v 400000; ");
+    EXPECT_EQ(done.code, 1);
+    EXPECT_EQ(done.errors, "risorius: not enough memory\n");
+    EXPECT_EQ(folder.listing(), Names{"clip.json"});
+}
+
+TEST(Outputs, HaveARecordWhateverTheirName) {
+    const Folder folder;
+    const std::string name = "caf\xe9.mp4";
+    EXPECT_EQ(run(clip_in(folder) + "-o '" + name + "'", folder.path()).code, 0);
+    EXPECT_EQ(folder.listing(), (Names{name, name + ".frames.tsv", name + ".json", "clip.json"}));
+    EXPECT_NE(bytes_of(folder / (name + ".json")).find("caf\xef\xbf\xbd.mp4"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace risorius::scenario

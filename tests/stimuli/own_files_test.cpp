@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// What batch takes for its own, and so may remove.
+#include "risorius/stimuli/detail/own_files.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "message_of.h"
+#include "risorius/core/output_set.h"
+#include "risorius/media/sha256.h"
+#include "temporary_folder.h"
+
+namespace risorius::stimuli {
+namespace {
+
+namespace fs = std::filesystem;
+using Files = std::set<fs::path>;
+
+/// A set with one clip "a", as batch writes it.
+void write_set(const TemporaryFolder& folder) {
+    nlohmann::ordered_json record{{"format", "risorius-clip"}, {"stim_id", "a"}};
+    for (const char* file : {"code/scripts/a.json", "overview/a.png", "stimuli/stim-a_video.mp4"}) {
+        write_file(folder / file, file);
+        record["files"][file] = media::sha256_of_file(folder / file);
+    }
+    write_file(folder / "stimuli/stim-a_video.json", record.dump());
+    write_file(folder / "triggers.tsv", "triggers");
+    write_file(folder / "SHA256SUMS",
+               media::sha256_of_file(folder / "triggers.tsv") + "  triggers.tsv\n");
+}
+
+void add_sum(const TemporaryFolder& folder, const std::string& file) {
+    std::ofstream(folder / "SHA256SUMS", std::ios::app)
+        << media::sha256_of_file(folder / file) << "  " << file << "\n";
+}
+
+const Files kSet{"code/scripts/a.json", "overview/a.png", "stimuli/stim-a_video.json",
+                 "stimuli/stim-a_video.mp4", "triggers.tsv"};
+
+TEST(OwnFiles, AreThoseOfClipsAndOfTheSet) {
+    const TemporaryFolder folder;
+    write_set(folder);
+    EXPECT_EQ(own_files(folder.path()), kSet);
+    check_own_folder(folder.path());
+}
+
+TEST(OwnFiles, AreNotThoseThatTheUserListsOrNamesAlike) {
+    const TemporaryFolder folder;
+    write_set(folder);
+    for (const char* file : {"notes.txt", "stimuli/stim-mine_video.mp4", "takes/a.mkv",
+                             "takes/thesis.txt", "overview/b.png", "code/analysis.R"}) {
+        write_file(folder / file, "mine");
+        add_sum(folder, file);
+    }
+    // A sidecar that was copied, and one that names more than a clip has
+    fs::copy_file(folder / "stimuli/stim-a_video.json", folder / "stimuli/stim-c_video.json");
+    nlohmann::ordered_json record{{"format", "risorius-clip"}, {"stim_id", "d"}};
+    for (const char* file : {"notes.txt", "../outside", "stimuli/stim-d_/../../notes.txt"})
+        record["files"][file] = media::sha256_of_file(folder / "notes.txt");
+    write_file(folder / "stimuli/stim-d_video.json", record.dump());
+    Files expected = kSet;
+    expected.insert("stimuli/stim-d_video.json");
+    EXPECT_EQ(own_files(folder.path()), expected);
+}
+
+TEST(OwnFiles, AreNotThoseThatWereChanged) {
+    const TemporaryFolder folder;
+    write_set(folder);
+    write_file(folder / "overview/a.png", "retouched");
+    write_file(folder / "triggers.tsv", "my own codes");
+    Files expected = kSet;
+    expected.erase("overview/a.png");
+    expected.erase("triggers.tsv");
+    EXPECT_EQ(own_files(folder.path()), expected);
+}
+
+TEST(OwnFiles, AreNotFoundThroughLinks) {
+    const TemporaryFolder folder;
+    write_set(folder);
+    for (const char* below : {"stimuli", "overview"}) {
+        fs::rename(folder / below, folder / (std::string("elsewhere ") + below));
+        fs::create_directory_symlink(folder / (std::string("elsewhere ") + below), folder / below);
+    }
+    EXPECT_EQ(own_files(folder.path()), Files{"triggers.tsv"});
+}
+
+TEST(OwnFiles, FoldersOfOthersAreRefused) {
+    const TemporaryFolder folder;
+    check_own_folder(folder / "new");
+    fs::create_directories(folder / "x/stimuli");
+    check_own_folder(folder / "x");
+    write_file(folder / "x/code/analysis.R", "mine");
+    write_file(folder / "x/dataset_description.json", R"({"Name": "a data set of mine"})");
+    EXPECT_NE(message_of([&] { check_own_folder(folder / "x"); })
+                  .find("expected an empty folder, or one that `batch` has begun, found a folder "
+                        "with other files"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace risorius::stimuli
