@@ -77,7 +77,7 @@ void read_eyes(const JsonCursor& json, KinematicValues& values) {
 ActionUnit read_unit(const JsonCursor& json, const std::string& id, const FacsRanges& ranges,
                      const ChannelTable& channels) {
     json.allow_keys({"name", "sided", "muscles", "jaw", "mouth_pressure_pa", "tongue_protrusion_mm",
-                     "head", "eyes", "unsupported", "landmark_targets_mm"});
+                     "head", "eyes", "unsupported", "landmark_targets_mm", "activation_at"});
     ActionUnit unit;
     unit.id = id;
     unit.name = json.at("name").string();
@@ -94,6 +94,7 @@ ActionUnit read_unit(const JsonCursor& json, const std::string& id, const FacsRa
             v->number({0, ranges.tongue_out_mm}) / ranges.tongue_out_mm;
     if (const auto v = json.find("head")) read_head(*v, unit.kinematic);
     if (const auto v = json.find("eyes")) read_eyes(*v, unit.kinematic);
+    if (const auto v = json.find("activation_at")) unit.curve = read_intensity_curve(*v);
     if (const auto v = json.find("unsupported")) unit.unsupported = v->string();
     if (const auto v = json.find("landmark_targets_mm"))
         for (const std::string& landmark : v->keys())
@@ -281,6 +282,19 @@ Expressions read_expressions(const JsonCursor& json, const FacsTable& facs,
     return expressions;
 }
 
+IntensityCurve read_intensity_curve(const JsonCursor& json) {
+    std::array<double, 3> at{};
+    const std::vector<JsonCursor> given = json.items();
+    if (given.size() != at.size()) json.fail("three activations", std::to_string(given.size()));
+    double before = 0;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        at[i] = given[i].number({0.001, 0.999});
+        if (at[i] <= before) given[i].fail("more than " + format_number(before));
+        before = at[i];
+    }
+    return IntensityCurve(at);
+}
+
 Expansion Expansion::none(const ChannelTable& channels) {
     Expansion expansion;
     expansion.excitation = Eigen::VectorXd::Zero(channels.column_count());
@@ -290,6 +304,12 @@ Expansion Expansion::none(const ChannelTable& channels) {
 void Expansion::add(const Expansion& part, double weight) {
     excitation += weight * part.excitation;
     for (std::size_t k = 0; k < kinematic.size(); ++k) kinematic[k] += weight * part.kinematic[k];
+}
+
+void Expansion::add(const Expansion& part, const IntensityCurve& curve, double intensity) {
+    excitation += curve.activation(intensity) * part.excitation;
+    for (std::size_t k = 0; k < kinematic.size(); ++k)
+        kinematic[k] += intensity * part.kinematic[k];
 }
 
 Expansion expand(const MuscleFraction& fraction, const ChannelTable& channels) {

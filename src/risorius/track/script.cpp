@@ -129,7 +129,7 @@ class Reader {
         track.name = name;
         Range range{0, 1};
         bool is_muscle = false;
-        track.drives = resolve(json, name, range, is_muscle);
+        track.drives = resolve(json, name, range, is_muscle, track.curve);
 
         if (const auto v = json.find("activation")) {
             track.activation = v->boolean();
@@ -195,19 +195,23 @@ class Reader {
             add(event.side ? event.side : part.use.side, unit.sided, part.delay,
                 [&](std::optional<Side> on, double fraction) {
                     const double value = fraction * part.use.value * event.intensity;
-                    Expansion drives = Expansion::none(channels_);
-                    drives.add(expand(unit, on, channels_), value);
-                    return ExpressionEvent::Part{std::move(drives), 0, {part.use.unit, on, value}};
+                    return ExpressionEvent::Part{expand(unit, on, channels_),
+                                                 unit.curve,
+                                                 value,
+                                                 0,
+                                                 {part.use.unit, on, value}};
                 });
         }
         for (const MuscleFraction& muscle : parts.muscles) {
             const bool paired = channels_.find(muscle.muscle)->paired;
             add(paired && event.side ? event.side : muscle.side, paired, 0,
                 [&](std::optional<Side> on, double fraction) {
-                    Expansion drives = Expansion::none(channels_);
-                    drives.add(expand(MuscleFraction{muscle.muscle, on, muscle.weight}, channels_),
-                               fraction * event.intensity);
-                    return ExpressionEvent::Part{std::move(drives), 0, {"", on, 0}};
+                    return ExpressionEvent::Part{
+                        expand(MuscleFraction{muscle.muscle, on, muscle.weight}, channels_),
+                        curve_of_added_muscles(),
+                        fraction * event.intensity,
+                        0,
+                        {"", on, 0}};
                 });
         }
         return event;
@@ -297,9 +301,9 @@ class Reader {
         event.drives.add(expand(*unit, event.side, channels_), event.intensity);
     }
 
-    /// Also returns the range of the channel's values, and whether it is a muscle.
+    /// Also returns the range of the channel's values, whether it is a muscle, and the curve of an action unit.
     Expansion resolve(const JsonCursor& json, const std::string& name, Range& range,
-                      bool& is_muscle) const {
+                      bool& is_muscle, IntensityCurve& curve) const {
         const std::vector<Kinematic> kinematic = kinematic_named(name);
         if (!kinematic.empty()) {
             Expansion drives = Expansion::none(channels_);
@@ -318,6 +322,7 @@ class Reader {
         }
         if (facs_.find(id) || facs_.find(name) || facs_.find(id + ".l") || is_unit_number(id)) {
             const UnitUse use = unit_named(json, name, facs_);
+            curve = facs_.find(use.unit)->curve;
             return expand(*facs_.find(use.unit), use.side, channels_);
         }
         std::vector<std::string_view> known;

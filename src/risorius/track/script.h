@@ -72,13 +72,16 @@ struct ChannelTrack {
     Interpolation interpolation = Interpolation::kSmooth;
     bool activation = false;  ///< sets activation directly, bypassing activation dynamics
     Expansion drives;         ///< contribution of the channel at value 1
+    IntensityCurve curve{};   ///< of an action unit
 };
 
 /// An expression rises along a minimum-jerk curve, is held and falls again. Every unit has its own delay within the onset.
 struct ExpressionEvent {
     struct Part {
-        Expansion drives;  ///< at the intensity of the event
-        double delay = 0;  ///< fraction of the onset
+        Expansion drives;  ///< at full intensity
+        IntensityCurve curve;
+        double intensity = 1;  ///< at the apex
+        double delay = 0;      ///< fraction of the onset
         UnitUse
             use;  ///< the part as a unit, with its value in the event; its name is empty for a muscle
     };
