@@ -2,12 +2,15 @@
 // Expressions have the times reported for people, and a higher intensity increases every part.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "message_of.h"
 #include "risorius/track/script.h"
 #include "risorius/track/timeline.h"
+#include "risorius/track/unit_intensity.h"
 #include "track/standard_tables.h"
 
 namespace risorius::track {
@@ -16,14 +19,17 @@ namespace {
 const char* const kSeven[] = {"happiness", "sadness",  "anger",   "fear",
                               "disgust",   "surprise", "contempt"};
 
-Timeline of(const std::string& expression, const std::string& more) {
+ScriptDescription script_with(const std::string& expression, const std::string& more) {
     Json json = Json::parse(
         R"({"format": "risorius-script", "version": 1, "rig": "rig.json", "duration_s": 6})");
     json["events"] =
         Json::parse(R"([{"expression": ")" + expression + R"(", "start_s": 0.5)" + more + "}]");
-    return Timeline(read_script(JsonCursor::from_json(json, "script.json"), tables().channels,
-                                tables().facs, tables().expressions),
-                    tables().channels);
+    return read_script(JsonCursor::from_json(json, "script.json"), tables().channels, tables().facs,
+                       tables().expressions);
+}
+
+Timeline of(const std::string& expression, const std::string& more) {
+    return Timeline(script_with(expression, more), tables().channels);
 }
 
 TEST(Expressions, TakeTheTimesReportedForPeople) {
@@ -47,12 +53,16 @@ TEST(Expressions, ComeWithOneSmoothRiseOfSpeed) {
     for (const char* name : kSeven) {
         const double onset = tables().expressions.find(name)->onset_s;
         const Timeline timeline = of(name, "");
-        double before = 0, speed_before = 0;
+        const UnitIntensity seen(script_with(name, ""), tables().facs);
+        double before = 0, speed_before = 0, excited_before = 0;
         int peaks = 0;
         for (double t = 0.5; t <= 0.5 + onset; t += onset / 100) {
-            const double sum = timeline.at(t).excitation.cwiseAbs().sum();
+            const std::vector<double> units = seen.at(t);
+            const double sum = std::accumulate(units.begin(), units.end(), 0.0);
             const double speed = sum - before;
-            EXPECT_GE(speed, -1e-9) << name << " at " << t;
+            const double excited = timeline.at(t).excitation.cwiseAbs().sum();
+            EXPECT_GE(excited, excited_before - 1e-9) << name << " at " << t;
+            excited_before = excited;
             peaks += speed < speed_before - 1e-9 && speed_before > 0 && peaks % 2 == 0;
             peaks += speed > speed_before + 1e-9 && peaks % 2 == 1;
             speed_before = speed;
@@ -81,14 +91,19 @@ TEST(Expressions, OfHigherIntensityAreMoreOfEverything) {
 }
 
 TEST(Expressions, AsymmetryWeakensOneSideByAtMostItsShare) {
-    const int left = tables().column("zygomaticus_major.l"),
-              right = tables().column("zygomaticus_major.r");
-    const Drive even = of("happiness", "").at(1.3);
-    EXPECT_EQ(even.excitation[left], even.excitation[right]);
-    const Drive uneven = of("happiness", R"(, "asymmetry": 0.2)").at(1.3);
-    const double weaker = std::min(uneven.excitation[left], uneven.excitation[right]);
-    const double stronger = std::max(uneven.excitation[left], uneven.excitation[right]);
-    EXPECT_EQ(stronger, even.excitation[left]);
+    const auto smile = [](const std::string& more) {
+        const UnitIntensity seen(script_with("happiness", more), tables().facs);
+        const std::vector<std::string>& names = seen.names();
+        const auto at = [&](const char* unit) {
+            return seen.at(1.3)[std::find(names.begin(), names.end(), unit) - names.begin()];
+        };
+        return std::pair{at("AU12.l"), at("AU12.r")};
+    };
+    const auto [even_left, even_right] = smile("");
+    EXPECT_EQ(even_left, even_right);
+    const auto [left, right] = smile(R"(, "asymmetry": 0.2)");
+    const double weaker = std::min(left, right), stronger = std::max(left, right);
+    EXPECT_EQ(stronger, even_left);
     EXPECT_LE(weaker, 0.9 * stronger + 1e-12);
     EXPECT_GE(weaker, 0.8 * stronger - 1e-12);
 }
@@ -150,10 +165,13 @@ TEST(Expressions, AddTheirMusclesToTheUnits) {
     const int column = tables().column("corrugator_supercilii.r");
     const Expression& anger = *tables().expressions.find("anger");
     ASSERT_FALSE(anger.parts.muscles.empty());
-    // The unit asks for 0.8, the expression for 1 more. What a muscle gets ends at 1.
+    // The unit asks for 0.98, the expression for 1 more. What a muscle gets ends at 1.
     EXPECT_EQ(of("anger", "").at(1.4).excitation[column], 1);
-    EXPECT_NEAR(of("anger", R"(, "intensity": 0.25)").at(1.4).excitation[column], 0.25 * 1.8,
-                1e-12);
+    const double unit =
+        tables().facs.find("AU4")->curve.activation(0.25) *
+        expand(*tables().facs.find("AU4"), std::nullopt, tables().channels).excitation[column];
+    EXPECT_NEAR(of("anger", R"(, "intensity": 0.25)").at(1.4).excitation[column],
+                unit + curve_of_added_muscles().activation(0.25), 1e-12);
     EXPECT_EQ(of("anger", R"(, "side": "l")").at(1.4).excitation[column], 0);
     const Drive uneven = of("anger", R"(, "asymmetry": 0.3, "intensity": 0.5)").at(1.4);
     EXPECT_NE(uneven.excitation[column],

@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
     std::vector<std::string> only;
     calibrate::Options options;
     double min = 0.05;
-    bool shapes_too = false, ways_only = false;
+    bool shapes_too = false, ways_only = false, unit_gains = false;
     app.add_option("RIG", rig_file, "A rig of the measured head, with the tables to improve")
         ->required();
     app.add_option("--shapes", shapes_file, "Measured displacements");
@@ -89,6 +89,9 @@ int main(int argc, char** argv) {
     app.add_option("--unit-goals", goals,
                    "Instead of --shapes: goals of action units for landmarks, see unit_weights.h. "
                    "Prints weights; --only names units");
+    app.add_flag("--unit-gains", unit_gains,
+                 "Only measure the gains of the action units with the strengths that RIG has, and "
+                 "write them into it");
     app.add_option("--also", also, "Further rigs for --unit-goals");
     app.add_option("--rounds", options.rounds)->capture_default_str();
     app.add_option("--keep", options.keep)->capture_default_str();
@@ -101,6 +104,10 @@ int main(int argc, char** argv) {
                  "after a fit of RIG with the tables written before");
     CLI11_PARSE(app, argc, argv);
     try {
+        if (unit_gains) {
+            calibrate::write_unit_gains(rig_file);
+            return 0;
+        }
         if (!goals.empty()) {
             also.insert(also.begin(), rig_file);
             calibrate::find_unit_weights(also, goals, only, options.keep);

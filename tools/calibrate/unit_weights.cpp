@@ -8,7 +8,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_text.h"
+#include "risorius/core/output_set.h"
 #include "risorius/face/face.h"
+#include "risorius/fitting/fit_units.h"
 #include "risorius/inverse/fit_activations.h"
 #include "risorius/rig/expression_drive.h"
 #include "risorius/scene/landmark_points.h"
@@ -194,6 +197,21 @@ void find_unit_weights(const std::vector<std::filesystem::path>& rigs,
         }
         std::fflush(stdout);
     }
+}
+
+void write_unit_gains(const std::filesystem::path& file) {
+    Json json = JsonCursor::read_file(file).json();
+    json.erase("unit_gains");
+    write_file(file, json_text(json, 1) + "\n");
+    const scene::RigFiles files = scene::read_rig_files(file);
+    face::Face face(files.rig, files.mesh, face::quality_named("preview"), files.place());
+    for (const auto& [unit, gain] : fitting::fit_units(face, files.rig, {})) {
+        std::printf("%-8s muscles %.3f reached %.2f\n", unit.c_str(), gain.muscles, gain.reached);
+        json["unit_gains"][unit] = {{"muscles", gain.muscles},
+                                    {"activation_at", gain.curve.points()},
+                                    {"reached", gain.reached}};
+    }
+    write_file(file, json_text(json, 1) + "\n");
 }
 
 }  // namespace risorius::calibrate

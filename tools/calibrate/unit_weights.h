@@ -21,4 +21,7 @@ void find_unit_weights(const std::vector<std::filesystem::path>& rigs,
                        const std::filesystem::path& goals, const std::vector<std::string>& only,
                        double keep);
 
+/// Measures the gains of the units of a rig (fitting/fit_units.h) and writes them into its file.
+void write_unit_gains(const std::filesystem::path& rig);
+
 }  // namespace risorius::calibrate

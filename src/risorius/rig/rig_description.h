@@ -18,6 +18,7 @@
 #include "risorius/rig/muscle_table.h"
 #include "risorius/track/channels.h"
 #include "risorius/track/facs.h"
+#include "risorius/track/intensity_curve.h"
 
 namespace risorius::rig {
 
@@ -53,7 +54,7 @@ struct EyesDescription {
     double lower_lid_per_gaze_up = 0.19;
     double lids_per_gaze_aside = 0.25;
     double upper_lid_per_brow = 0.4;  ///< ratio: the upper lid comes down per way of a lowered brow
-    double lower_lid_per_cheek = 0.4;  ///< ratio: the lower lid goes up per way of a raised cheek
+    double lower_lid_per_cheek = 0.45;  ///< ratio: the lower lid goes up per way of a raised cheek
     double wide_deg = 11.5;  ///< turn by which a fully active levator raises the upper lid
     /// Fraction of the lid fissure that the upper lid travels when the eye closes; the lower lid travels the rest
     double lid_closed_fraction = 0.96;

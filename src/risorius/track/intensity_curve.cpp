@@ -12,6 +12,7 @@ constexpr double kPart = 0.25;
 
 IntensityCurve::IntensityCurve(const std::array<double, 3>& activation) {
     std::copy(activation.begin(), activation.end(), at_.begin() + 1);
+    identity_ = activation == std::array<double, 3>{0.25, 0.5, 0.75};
     std::array<double, 4> secant;
     for (std::size_t i = 0; i < 4; ++i) secant[i] = (at_[i + 1] - at_[i]) / kPart;
     slope_[0] = secant[0];
@@ -27,6 +28,7 @@ IntensityCurve::IntensityCurve(const std::array<double, 3>& activation) {
 }
 
 double IntensityCurve::activation(double intensity) const {
+    if (identity_) return intensity;
     if (intensity < 0) return -activation(-intensity);
     if (intensity >= 1) return intensity;
     const auto i = static_cast<std::size_t>(intensity / kPart);

@@ -26,6 +26,7 @@ class IntensityCurve {
   private:
     std::array<double, 5> at_{0, 0.25, 0.5, 0.75, 1};
     std::array<double, 5> slope_{1, 1, 1, 1, 1};
+    bool identity_ = true;
 };
 
 }  // namespace risorius::track

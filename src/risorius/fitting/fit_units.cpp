@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/fitting/detail/fit_units.h"
+#include "risorius/fitting/fit_units.h"
 
 #include <algorithm>
 #include <array>
