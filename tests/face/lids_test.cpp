@@ -6,6 +6,7 @@
 
 #include "face/adult_face.h"
 #include "risorius/face/anatomy/lid_measures.h"
+#include "risorius/face/skin/detail/lid_pull.h"
 
 namespace risorius::face {
 namespace {
@@ -254,6 +255,41 @@ TEST_P(MeasuredHeads, ShutTheirEyes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lids, MeasuredHeads, testing::Values("ict", "makehuman"));
+
+// FACS asks for a narrower eye in AU4, AU6, AU9 and AU12, by skin that brow and cheek push before them.
+TEST_F(Lids, BrowAndCheekNarrowTheEye) {
+    const double open_mm = gap_mm(equilibrium_pose(face(), neutral()), "_l");
+    for (const char* unit : {"AU4", "AU6", "AU9", "AU12"}) {
+        const double narrower_mm =
+            open_mm - gap_mm(equilibrium_pose(face(), with_unit(unit)), "_l");
+        EXPECT_GT(narrower_mm, 0.9) << unit;
+        EXPECT_LT(narrower_mm, 4) << unit;
+    }
+    for (const char* unit : {"AU1", "AU2", "AU15", "AU26"})
+        EXPECT_NEAR(gap_mm(equilibrium_pose(face(), with_unit(unit)), "_l"), open_mm, 0.3) << unit;
+}
+
+TEST_F(Lids, TheGradientOfTheirPullIsItsDerivative) {
+    const rig::Head& head = face().head();
+    const LidPullMeasure measure(head, rig::EyesDescription{});
+    const Points skin = equilibrium_pose(face(), with_unit("AU4", 0.7)).vertices;
+    const std::array<LidPull, 2> slope{LidPull{0.3, -1.1}, LidPull{0.7, 0.4}};
+    const auto value = [&](const Points& at) {
+        double sum = 0;
+        const std::array<LidPull, 2> pull = measure.of(at);
+        for (std::size_t side = 0; side < 2; ++side)
+            sum +=
+                slope[side].upper_m * pull[side].upper_m + slope[side].lower_m * pull[side].lower_m;
+        return sum;
+    };
+    Points gradient = Points::Zero(skin.rows(), 3);
+    measure.add_gradient(skin, slope, gradient);
+    Points way = Points::Zero(skin.rows(), 3);
+    for (long v = 0; v < way.rows(); ++v) way(v, 1) = 1e-5 * std::sin(0.7 * static_cast<double>(v));
+    const double change = (value(skin + way) - value(skin - way)) / 2;
+    ASSERT_GT(std::abs(change), 1e-9);
+    EXPECT_NEAR(gradient.cwiseProduct(way).sum(), change, 1e-4 * std::abs(change));
+}
 
 }  // namespace
 }  // namespace risorius::face

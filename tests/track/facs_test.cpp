@@ -171,8 +171,8 @@ TEST(Facs, ArkitShapesOfTheTwoSidesMirrorEachOther) {
 
 TEST(Facs, ContemptIsOneSided) {
     const Expression& contempt = *tables().expressions.find("contempt");
-    ASSERT_EQ(contempt.units.size(), 2u);
-    for (const ExpressionUnit& part : contempt.units) EXPECT_EQ(part.use.side, Side::kRight);
+    ASSERT_EQ(contempt.parts.units.size(), 2u);
+    for (const ExpressionUnit& part : contempt.parts.units) EXPECT_EQ(part.use.side, Side::kRight);
 }
 
 TEST(Facs, BrokenTablesAreRefusedWithPlaceAndReason) {
@@ -205,7 +205,7 @@ TEST(Facs, BrokenTablesAreRefusedWithPlaceAndReason) {
                       JsonCursor::from_json(Json::parse(R"({"expressions": {"joy": {"onset_s": 0.4,
                       "hold_s": 1, "offset_s": 1, "units": {"AU12": {"value": 1, "delay": 1}}}}})"),
                                             "expressions.json"),
-                      tables().facs);
+                      tables().facs, tables().channels);
               }),
               "expressions.json:/expressions/joy/units/AU12/delay: expected [0, 0.9], found 1");
 }

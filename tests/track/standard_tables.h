@@ -37,8 +37,8 @@ struct StandardTables {
                                                muscle.at("paired").boolean(),
                                                muscle.has("tonic_rest_activation") ? -1.0 : 0.0});
         tables.facs = read_facs(JsonCursor::read_file(folder / "facs.json"), tables.channels);
-        tables.expressions =
-            read_expressions(JsonCursor::read_file(folder / "expressions.json"), tables.facs);
+        tables.expressions = read_expressions(JsonCursor::read_file(folder / "expressions.json"),
+                                              tables.facs, tables.channels);
         return tables;
     }
 };

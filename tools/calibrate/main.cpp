@@ -15,6 +15,7 @@
 #include "risorius/scene/rig_files.h"
 #include "tools/calibrate/calibration.h"
 #include "tools/calibrate/tables.h"
+#include "tools/calibrate/unit_weights.h"
 
 namespace {
 
@@ -74,16 +75,24 @@ void print_changes(const std::vector<calibrate::Parameter>& parameters,
 
 int main(int argc, char** argv) {
     CLI::App app("Calibrates the standard anatomy on measured expressions.", "calibrate");
-    std::filesystem::path rig_file, shapes_file, standard;
+    std::filesystem::path rig_file, shapes_file, standard, goals;
+    std::vector<std::filesystem::path> also;
     std::vector<std::string> only;
     calibrate::Options options;
     double min = 0.05;
-    bool shapes_too = false, ways_only = false;
+    bool shapes_too = false, ways_only = false, unit_gains = false;
     app.add_option("RIG", rig_file, "A rig of the measured head, with the tables to improve")
         ->required();
     app.add_option("--shapes", shapes_file, "Measured displacements");
     app.add_option("--only", only, "Expressions to calibrate on")->delimiter(',');
-    app.add_option("--standard", standard, "Folder of tables to write into")->required();
+    app.add_option("--standard", standard, "Folder of tables to write into");
+    app.add_option("--unit-goals", goals,
+                   "Instead of --shapes: goals of action units for landmarks, see unit_weights.h. "
+                   "Prints weights; --only names units");
+    app.add_flag("--unit-gains", unit_gains,
+                 "Only measure the gains of the action units with the strengths that RIG has, and "
+                 "write them into it");
+    app.add_option("--also", also, "Further rigs for --unit-goals");
     app.add_option("--rounds", options.rounds)->capture_default_str();
     app.add_option("--keep", options.keep)->capture_default_str();
     app.add_option("--stay", options.stay)->capture_default_str();
@@ -95,6 +104,16 @@ int main(int argc, char** argv) {
                  "after a fit of RIG with the tables written before");
     CLI11_PARSE(app, argc, argv);
     try {
+        if (unit_gains) {
+            calibrate::write_unit_gains(rig_file);
+            return 0;
+        }
+        if (!goals.empty()) {
+            also.insert(also.begin(), rig_file);
+            calibrate::find_unit_weights(also, goals, only, options.keep);
+            return 0;
+        }
+        if (standard.empty()) throw Error("calibrate", "--standard FOLDER", "none");
         if (ways_only) {
             write_ways(rig_file, "video", standard);
             return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// risorius evaluate RIG --shapes FILE [--fit] [-o DIR]
+// risorius evaluate RIG --shapes FILE [--fit] [-o DIR], evaluate RIG --like RIG, evaluate RIG --facs
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -8,6 +8,7 @@
 #include "risorius/core/json_text.h"
 #include "risorius/inverse/compare_heads.h"
 #include "risorius/inverse/evaluate.h"
+#include "risorius/inverse/read_units.h"
 #include "tools/risorius/commands.h"
 
 namespace risorius::cli {
@@ -18,6 +19,7 @@ struct EvaluateArguments {
     Common common;
     inverse::EvaluateOptions options;
     std::filesystem::path like;
+    bool facs = false;
     bool no_pictures = false;
 };
 
@@ -94,10 +96,47 @@ void compare(EvaluateArguments& arguments) {
         print(comparison);
 }
 
+void print(const inverse::UnitReadings& readings) {
+    const scene::FaceLengths& rest = readings.neutral;
+    std::printf("%s, neutral: eye opening %.1f mm, mouth %.1f mm wide\n", readings.rig.c_str(),
+                rest.lid_aperture, rest.mouth_width);
+    std::printf("  %-6s %5s %5s %5s %5s %6s %6s %6s %6s  %s\n", "", "gain", ".25", ".5", ".75",
+                "eye", "width", "gap", "corner", "landmarks: gain along the target");
+    for (const scene::UnitReading& one : readings.units) {
+        std::printf("  %-6s %5.2f %5.2f %5.2f %5.2f %+6.1f %+6.1f %+6.1f %+6.1f ", one.unit.c_str(),
+                    one.gain, one.response[0], one.response[1], one.response[2],
+                    one.change.lid_aperture, one.change.mouth_width, one.change.lip_gap,
+                    one.change.corner_height);
+        for (const scene::LandmarkReading& mark : one.landmarks)
+            std::printf(" %s %.2f", mark.landmark.c_str(), mark.gain);
+        std::printf("%s\n", one.in_equilibrium ? "" : "  did not come to rest");
+    }
+    std::printf(
+        "  gain: 1 when the landmarks move as far as facs.json asks; .25, .5, .75: the part of the "
+        "full way at\n  that intensity; eye, width, gap, corner: change of the eye opening, of the "
+        "width of the mouth, of the gap\n  between the lips, and of the height of the corners, "
+        "mm\n");
+}
+
+void read_units(EvaluateArguments& arguments) {
+    inverse::UnitReadings readings;
+    {
+        ProgressBar bar(arguments.common);
+        readings = inverse::read_units(arguments.options.rig, arguments.options.only,
+                                       arguments.options.quality, bar.monitor());
+    }
+    if (arguments.common.json)
+        std::printf("%s\n", json_text(readings.json(), 2).c_str());
+    else if (!arguments.common.quiet)
+        print(readings);
+}
+
 void run(EvaluateArguments& arguments) {
-    if (arguments.options.shapes.empty() == arguments.like.empty())
-        throw Error("evaluate", "--shapes FILE or --like RIG",
-                    arguments.like.empty() ? "neither" : "both");
+    const int kinds = !arguments.options.shapes.empty() + !arguments.like.empty() + arguments.facs;
+    if (kinds != 1)
+        throw Error("evaluate", "one of --shapes FILE, --like RIG and --facs",
+                    kinds == 0 ? "none" : std::to_string(kinds));
+    if (arguments.facs) return read_units(arguments);
     if (!arguments.like.empty()) return compare(arguments);
     arguments.options.pictures = !arguments.no_pictures;
     inverse::Evaluation evaluation;
@@ -124,6 +163,9 @@ void add_evaluate(CLI::App& app) {
                         "file of raw numbers, see docs/formats/measured-shapes.md");
     command->add_option("--like", arguments->like,
                         "Instead of --shapes: a rig to compare the expressions of RIG with");
+    command->add_flag("--facs", arguments->facs,
+                      "Instead of --shapes: read the action units of RIG as a coder measures them: "
+                      "landmarks against the targets of its table, eye opening, mouth");
     command->add_option("-o,--out", options.out,
                         "The folder of the report: index.html, contact sheets, pictures, "
                         "results.json, scores.tsv. Without it, numbers are only printed");
@@ -152,7 +194,8 @@ void add_evaluate(CLI::App& app) {
         "  risorius evaluate anna/rig.json --shapes anna/expressions.json -o out/anna\n"
         "  risorius evaluate anna/rig.json --shapes anna/expressions.json --fit --only "
         "mouthSmile,jawOpen -o out/fit\n"
-        "  risorius evaluate anna/rig.json --like rigs/adult/rig.json");
+        "  risorius evaluate anna/rig.json --like rigs/adult/rig.json\n"
+        "  risorius evaluate anna/rig.json --facs --only AU6,AU12");
     command->callback([arguments] { run(*arguments); });
 }
 

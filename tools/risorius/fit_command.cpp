@@ -13,6 +13,8 @@ namespace risorius::cli {
 
 namespace {
 
+constexpr double kReached = 0.9;  // units that reach less of what their table asks for are named
+
 struct FitArguments {
     Common common;
     fitting::FitOptions options;
@@ -72,6 +74,19 @@ void print(const fitting::FitReport& report) {
             "muscles "
             "were scaled together)\n",
             report.difference, report.difference_before);
+    std::string short_of;
+    for (const auto& [unit, gain] : report.unit_gains)
+        if (gain.reached < kReached) {
+            char words[32];
+            std::snprintf(words, sizeof words, "%s%s %.2f", short_of.empty() ? "" : ", ",
+                          unit.c_str(), gain.reached);
+            short_of += words;
+        }
+    if (!report.unit_gains.empty())
+        std::printf("  action units are scaled to this head: %zu%s%s\n", report.unit_gains.size(),
+                    short_of.empty() ? "; all reach what their table asks for"
+                                     : "; of what their table asks for, these reach ",
+                    short_of.c_str());
     for (const std::string& note : report.notes) std::printf("  note: %s\n", note.c_str());
 }
 

@@ -13,6 +13,7 @@
 #include "risorius/fitting/detail/fit_strengths.h"
 #include "risorius/fitting/detail/mesh_parts.h"
 #include "risorius/fitting/detail/piece_guess.h"
+#include "risorius/fitting/fit_units.h"
 #include "risorius/fitting/landmark_file.h"
 #include "risorius/fitting/part_guess.h"
 #include "risorius/geom/repair_mesh.h"
@@ -45,7 +46,7 @@ rig::RigDescription standard_rig(const fs::path& folder) {
     rig.atlas.wrinkles = rig::read_wrinkles(table(rig::kWrinkleFile), rig.atlas.landmark_ids());
     rig.muscles = rig::read_muscle_table(table("muscles.json"));
     rig.facs = track::read_facs(table("facs.json"), rig.channels());
-    rig.expressions = track::read_expressions(table("expressions.json"), rig.facs);
+    rig.expressions = track::read_expressions(table("expressions.json"), rig.facs, rig.channels());
     return rig;
 }
 
@@ -137,8 +138,8 @@ void scale_muscles(face::Face& face, const FitOptions& options, const fs::path& 
         };
         return part;
     };
-    const ProgressMonitor alone = part_of(0, options.together ? 0.4 : 1.0),
-                          together = part_of(0.4, 1.0);
+    const ProgressMonitor alone = part_of(0, options.together ? 0.25 : 1.0),
+                          together = part_of(0.25, 0.6), units = part_of(0.6, 1.0);
     report.strengths = calibrate_strength(face, rig, alone);
     if (options.together) {
         const StrengthFit fit = fit_strengths(
@@ -150,6 +151,7 @@ void scale_muscles(face::Face& face, const FitOptions& options, const fs::path& 
         for (MuscleStrength& found : report.strengths)
             found.strength *= fit.factor.at(found.muscle);
     }
+    if (options.together) report.unit_gains = rig.unit_gains = fit_units(face, rig, units);
     for (const MuscleStrength& found : report.strengths) {
         const double strength = std::round(1e4 * found.strength) / 1e4;
         for (rig::SolidMuscle& solid : rig.solids)
@@ -415,6 +417,10 @@ Json FitReport::json() const {
     json["eyes"] = eyes;
     json["teeth"] = teeth;
     json["expressions"] = {{"difference_before", difference_before}, {"difference", difference}};
+    for (const auto& [unit, gain] : unit_gains)
+        json["unit_gains"][unit] = {{"muscles", gain.muscles},
+                                    {"activation_at", gain.curve.points()},
+                                    {"reached", gain.reached}};
     json["strengths"] = Json::array();
     for (const MuscleStrength& m : strengths)
         json["strengths"].push_back({{"muscle", m.muscle},

@@ -13,6 +13,7 @@
 #include "risorius/core/progress_monitor.h"
 #include "risorius/fitting/detail/calibrate_strength.h"
 #include "risorius/fitting/detail/fit_picture.h"
+#include "risorius/rig/rig_description.h"
 
 namespace risorius::fitting {
 
@@ -58,6 +59,7 @@ struct FitReport {
     /// Mean difference of the standard expressions from those of the standard head, before and after the joint calibration, see
     /// fit_strengths.h.
     double difference_before = 0, difference = 0;
+    std::map<std::string, rig::UnitGain> unit_gains;  ///< see fit_units.h
     std::vector<std::string> notes;
 
     Json json() const;

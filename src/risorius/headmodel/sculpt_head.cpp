@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/data_folder.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/fitting/fit_rig.h"
@@ -75,6 +76,15 @@ Image views_of(const render::Scene& scene) {
         left += kWidth_px;
     }
     return row;
+}
+
+// A head of this family that is not calibrated gets what was found for its mean, the adult.
+void take_calibration(const fs::path& standard, Json& rig) {
+    const fs::path rigs = standard.empty() ? data_folder() / "rigs" : standard.parent_path();
+    const Json adult = JsonCursor::read_file(rigs / "adult" / "rig.json").json();
+    for (const char* key : {"strength", "lips", "solids"})
+        rig["anatomy"][key] = adult["anatomy"][key];
+    if (adult.contains("unit_gains")) rig["unit_gains"] = adult["unit_gains"];
 }
 
 }  // namespace
@@ -158,6 +168,7 @@ SculptReport sculpt_head(const SculptOptions& options, const ProgressMonitor& mo
         fit.solids = true;
         report.notes = fitting::fit_rig(fit, monitor).notes;
         Json rig = JsonCursor::read_file(fit.out).json();
+        if (!options.calibrate) take_calibration(options.standard, rig);
         rig["appearance"] = appearance_json(options.identity, tables);
         // The pictures are for others: drawn here, the head looks the same with and without them.
         if (textured) rig["appearance"]["textures"] = "generated";

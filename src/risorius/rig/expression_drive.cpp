@@ -59,9 +59,13 @@ std::optional<track::Expansion> expansion_named(const rig::RigDescription& rig,
         return out;
     }
     if (const track::Expression* found = rig.expressions.find(name)) {
-        for (const track::ExpressionUnit& part : found->units)
-            out.add(track::expand(*rig.facs.find(part.use.unit), part.use.side, channels),
+        for (const track::ExpressionUnit& part : found->parts.units) {
+            const track::ActionUnit& found_unit = *rig.facs.find(part.use.unit);
+            out.add(track::expand(found_unit, part.use.side, channels), found_unit.curve,
                     part.use.value);
+        }
+        for (const track::MuscleFraction& muscle : found->parts.muscles)
+            out.add(track::expand(muscle, channels), 1.0);
         return out;
     }
     if (channels.find(unit.id)) {

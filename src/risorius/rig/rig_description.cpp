@@ -34,6 +34,8 @@ void visit_fields(EyesDescription& eyes, Visit visit) {
     visit("lower_lid_per_gaze_down", eyes.lower_lid_per_gaze_down, Range{0, 2});
     visit("lower_lid_per_gaze_up", eyes.lower_lid_per_gaze_up, Range{0, 2});
     visit("lids_per_gaze_aside", eyes.lids_per_gaze_aside, Range{0, 1});
+    visit("upper_lid_per_brow", eyes.upper_lid_per_brow, Range{0, 1});
+    visit("lower_lid_per_cheek", eyes.lower_lid_per_cheek, Range{0, 1});
     visit("wide_deg", eyes.wide_deg, Range{0, 45});
     visit("lid_closed_share", eyes.lid_closed_fraction, Range{0.5, 1});
 }
@@ -210,11 +212,36 @@ std::map<std::string, Landmark> read_landmarks(const std::filesystem::path& file
     return read_landmark_table(json.at("landmarks"));
 }
 
+std::map<std::string, UnitGain> read_unit_gains(const JsonCursor& json,
+                                                const track::FacsTable& facs) {
+    std::map<std::string, UnitGain> out;
+    for (const std::string& id : json.keys()) {
+        const JsonCursor item = json.at(id);
+        if (!facs.find(id)) item.fail("an action unit of the facs table", "\"" + id + "\"");
+        item.allow_keys({"muscles", "activation_at", "reached"});
+        UnitGain& gain = out[id];
+        gain.muscles = item.at("muscles").number({0.05, 20});
+        gain.curve = track::read_intensity_curve(item.at("activation_at"));
+        if (const auto reached = item.find("reached")) gain.reached = reached->number();
+    }
+    return out;
+}
+
+void apply_unit_gains(const std::map<std::string, UnitGain>& gains, track::FacsTable& facs) {
+    for (track::ActionUnit& unit : facs.units) {
+        const auto gain = gains.find(unit.id);
+        if (gain == gains.end()) continue;
+        for (track::MuscleFraction& muscle : unit.muscles)
+            muscle.weight = std::clamp(gain->second.muscles * muscle.weight, -1.0, 1.0);
+        unit.curve = gain->second.curve;
+    }
+}
+
 RigDescription read_rig(const std::filesystem::path& file) {
     const JsonCursor json = JsonCursor::read_file(file);
     json.at("format").one_of({"risorius-rig"});
     json.allow_keys({"format", "version", "name", "mesh", "landmarks", "anatomy", "tissue", "skin",
-                     "facs", "expressions", "appearance", "look", "calibrated_on"});
+                     "facs", "unit_gains", "expressions", "appearance", "look", "calibrated_on"});
     json.at("version").integer(1, 1);
     RigDescription rig;
     const auto table = [&](const JsonCursor& named) {
@@ -288,9 +315,13 @@ RigDescription read_rig(const std::filesystem::path& file) {
     }
     read_fields(json, json.has("look") ? "look" : "appearance", rig.appearance);
     rig.facs = track::read_facs(table(json.at("facs")), rig.channels());
+    if (const auto gains = json.find("unit_gains"))
+        rig.unit_gains = read_unit_gains(*gains, rig.facs);
+    apply_unit_gains(rig.unit_gains, rig.facs);
     for (track::ActionUnit& unit : rig.facs.units)
         unit.kinematic[static_cast<std::size_t>(track::Kinematic::kMouthPressure)] *= rig.lips.puff;
-    rig.expressions = track::read_expressions(table(json.at("expressions")), rig.facs);
+    rig.expressions =
+        track::read_expressions(table(json.at("expressions")), rig.facs, rig.channels());
     return rig;
 }
 
@@ -344,6 +375,10 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     json["tissue"] = fields_of(rig.tissue);
     json["skin"] = fields_of(rig.skin);
     json["facs"] = table("facs.json");
+    for (const auto& [unit, gain] : rig.unit_gains)
+        json["unit_gains"][unit] = {{"muscles", gain.muscles},
+                                    {"activation_at", gain.curve.points()},
+                                    {"reached", gain.reached}};
     json["expressions"] = table("expressions.json");
     json["appearance"] = fields_of(rig.appearance);
     if (const auto source = options.standard_folder / kCalibrationFile;

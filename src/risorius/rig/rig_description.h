@@ -18,6 +18,7 @@
 #include "risorius/rig/muscle_table.h"
 #include "risorius/track/channels.h"
 #include "risorius/track/facs.h"
+#include "risorius/track/intensity_curve.h"
 
 namespace risorius::rig {
 
@@ -52,6 +53,8 @@ struct EyesDescription {
     double lower_lid_per_gaze_down = 0.29;
     double lower_lid_per_gaze_up = 0.19;
     double lids_per_gaze_aside = 0.25;
+    double upper_lid_per_brow = 0.4;  ///< ratio: the upper lid comes down per way of a lowered brow
+    double lower_lid_per_cheek = 0.45;  ///< ratio: the lower lid goes up per way of a raised cheek
     double wide_deg = 11.5;  ///< turn by which a fully active levator raises the upper lid
     /// Fraction of the lid fissure that the upper lid travels when the eye closes; the lower lid travels the rest
     double lid_closed_fraction = 0.96;
@@ -119,6 +122,13 @@ struct AppearanceDescription {
     int seed = 1;
 };
 
+/// What `fit` found for an action unit on this head, so that it moves as far and as evenly as facs.json asks.
+struct UnitGain {
+    double muscles = 1;  ///< factor of the weights of its muscles, [0.05, 20]; weights end at 1
+    track::IntensityCurve curve;
+    double reached = 1;  ///< fraction of the way that facs.json asks for, for reports
+};
+
 /// Everything that a rig file and its tables say.
 struct RigDescription {
     std::string name;
@@ -135,7 +145,8 @@ struct RigDescription {
     ActivationDescription activation;
     TissueDescription tissue;
     SkinDescription skin;
-    track::FacsTable facs;
+    track::FacsTable facs;                       ///< with the gains below
+    std::map<std::string, UnitGain> unit_gains;  ///< by action unit
     track::Expressions expressions;
     AppearanceDescription appearance;
     std::vector<std::string> notes;                  ///< keys of the file that have been renamed

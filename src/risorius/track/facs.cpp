@@ -77,7 +77,7 @@ void read_eyes(const JsonCursor& json, KinematicValues& values) {
 ActionUnit read_unit(const JsonCursor& json, const std::string& id, const FacsRanges& ranges,
                      const ChannelTable& channels) {
     json.allow_keys({"name", "sided", "muscles", "jaw", "mouth_pressure_pa", "tongue_protrusion_mm",
-                     "head", "eyes", "unsupported", "landmark_targets_mm"});
+                     "head", "eyes", "unsupported", "landmark_targets_mm", "activation_at"});
     ActionUnit unit;
     unit.id = id;
     unit.name = json.at("name").string();
@@ -94,6 +94,7 @@ ActionUnit read_unit(const JsonCursor& json, const std::string& id, const FacsRa
             v->number({0, ranges.tongue_out_mm}) / ranges.tongue_out_mm;
     if (const auto v = json.find("head")) read_head(*v, unit.kinematic);
     if (const auto v = json.find("eyes")) read_eyes(*v, unit.kinematic);
+    if (const auto v = json.find("activation_at")) unit.curve = read_intensity_curve(*v);
     if (const auto v = json.find("unsupported")) unit.unsupported = v->string();
     if (const auto v = json.find("landmark_targets_mm"))
         for (const std::string& landmark : v->keys())
@@ -220,31 +221,78 @@ FacsTable read_facs(const JsonCursor& json, const ChannelTable& channels) {
     return facs;
 }
 
-Expressions read_expressions(const JsonCursor& json, const FacsTable& facs) {
+namespace {
+
+ExpressionParts read_parts(const JsonCursor& entry, const FacsTable& facs,
+                           const ChannelTable& channels) {
+    ExpressionParts parts;
+    const JsonCursor units = entry.at("units");
+    for (const std::string& unit : units.keys()) {
+        const JsonCursor part = units.at(unit);
+        part.allow_keys({"value", "delay"});
+        ExpressionUnit use{unit_named(part, unit, facs), 0};
+        use.use.value = part.at("value").number({0, 1});
+        // A delay as long as the onset would leave no time to move.
+        if (const auto delay = part.find("delay")) use.delay = delay->number({0, 0.9});
+        parts.units.push_back(std::move(use));
+    }
+    if (const auto muscles = entry.find("muscles"))
+        for (const std::string& name : muscles->keys()) {
+            MuscleFraction muscle = muscle_named(muscles->at(name), name, channels);
+            muscle.weight = muscles->at(name).number({0, 1});
+            parts.muscles.push_back(std::move(muscle));
+        }
+    return parts;
+}
+
+}  // namespace
+
+const ExpressionVariant* Expression::find_variant(const std::string& variant) const {
+    const auto found =
+        std::find_if(variants.begin(), variants.end(),
+                     [&](const ExpressionVariant& one) { return one.name == variant; });
+    return found == variants.end() ? nullptr : &*found;
+}
+
+Expressions read_expressions(const JsonCursor& json, const FacsTable& facs,
+                             const ChannelTable& channels) {
     json.allow_keys({"source", "expressions"});
     const JsonCursor table = json.at("expressions");
     Expressions expressions;
     for (const std::string& name : table.keys()) {
         const JsonCursor entry = table.at(name);
-        entry.allow_keys({"onset_s", "hold_s", "offset_s", "units"});
+        entry.allow_keys(
+            {"source", "onset_s", "hold_s", "offset_s", "units", "muscles", "variants"});
         Expression expression;
         expression.name = name;
         expression.onset_s = entry.at("onset_s").number({0, 60});
         expression.hold_s = entry.at("hold_s").number({0, 3600});
         expression.offset_s = entry.at("offset_s").number({0, 60});
-        const JsonCursor units = entry.at("units");
-        for (const std::string& unit : units.keys()) {
-            const JsonCursor part = units.at(unit);
-            part.allow_keys({"value", "delay"});
-            ExpressionUnit use{unit_named(part, unit, facs), 0};
-            use.use.value = part.at("value").number({0, 1});
-            // A delay as long as the onset would leave no time to move.
-            if (const auto delay = part.find("delay")) use.delay = delay->number({0, 0.9});
-            expression.units.push_back(std::move(use));
-        }
+        if (const auto source = entry.find("source")) expression.source = source->string();
+        expression.parts = read_parts(entry, facs, channels);
+        if (const auto variants = entry.find("variants"))
+            for (const std::string& variant : variants->keys()) {
+                const JsonCursor one = variants->at(variant);
+                one.allow_keys({"source", "units", "muscles"});
+                expression.variants.push_back(
+                    {variant, one.at("source").string(), read_parts(one, facs, channels)});
+            }
         expressions.list.push_back(std::move(expression));
     }
     return expressions;
+}
+
+IntensityCurve read_intensity_curve(const JsonCursor& json) {
+    std::array<double, 3> at{};
+    const std::vector<JsonCursor> given = json.items();
+    if (given.size() != at.size()) json.fail("three activations", std::to_string(given.size()));
+    double before = 0;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        at[i] = given[i].number({0.001, 0.999});
+        if (at[i] <= before) given[i].fail("more than " + format_number(before));
+        before = at[i];
+    }
+    return IntensityCurve(at);
 }
 
 Expansion Expansion::none(const ChannelTable& channels) {
@@ -256,6 +304,12 @@ Expansion Expansion::none(const ChannelTable& channels) {
 void Expansion::add(const Expansion& part, double weight) {
     excitation += weight * part.excitation;
     for (std::size_t k = 0; k < kinematic.size(); ++k) kinematic[k] += weight * part.kinematic[k];
+}
+
+void Expansion::add(const Expansion& part, const IntensityCurve& curve, double intensity) {
+    excitation += curve.activation(intensity) * part.excitation;
+    for (std::size_t k = 0; k < kinematic.size(); ++k)
+        kinematic[k] += intensity * part.kinematic[k];
 }
 
 Expansion expand(const MuscleFraction& fraction, const ChannelTable& channels) {

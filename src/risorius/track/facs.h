@@ -15,6 +15,7 @@
 
 #include "risorius/core/json_cursor.h"
 #include "risorius/track/channels.h"
+#include "risorius/track/intensity_curve.h"
 
 namespace risorius::track {
 
@@ -39,6 +40,7 @@ struct ActionUnit {
     bool sided = false;  ///< may be restricted to a side with .l or .r
     std::vector<MuscleFraction> muscles;
     KinematicValues kinematic{};
+    IntensityCurve curve;     ///< from the intensity to the activation of its muscles
     std::string unsupported;  ///< why this face cannot show the unit; empty when it can
     /// Displacements that the unit should cause: a landmark on the left side or the midline, and its displacement.
     std::vector<std::pair<std::string, Vec3>> landmark_targets_mm;
@@ -81,6 +83,9 @@ struct FacsTable {
 /// Throws Error for muscles that the rig does not have, unknown units, and weights outside the muscle's range.
 FacsTable read_facs(const JsonCursor& json, const ChannelTable& channels);
 
+/// Reads three activations. Throws Error for others than three numbers that increase within (0, 1).
+IntensityCurve read_intensity_curve(const JsonCursor& json);
+
 /// A unit of an expression, with its delay.
 struct ExpressionUnit {
     UnitUse use;
@@ -88,13 +93,30 @@ struct ExpressionUnit {
     double delay = 0;
 };
 
+/// What an expression consists of at intensity 1.
+struct ExpressionParts {
+    std::vector<ExpressionUnit> units;
+    /// Muscles that contract more than the units ask for. They start with the first unit and have no FACS code of their own.
+    std::vector<MuscleFraction> muscles;
+};
+
+/// Another form of an expression, for instance the one that a study observed.
+struct ExpressionVariant {
+    std::string name;
+    std::string source;  ///< who published it
+    ExpressionParts parts;
+};
+
 /// An expression: a named set of units, with the usual durations of onset, hold and offset.
 struct Expression {
     std::string name;
+    std::string source;    ///< who published its units; empty in tables of older versions
     double onset_s = 0.5;  ///< usual durations, for scripts that give none
     double hold_s = 1.0;
     double offset_s = 0.8;
-    std::vector<ExpressionUnit> units;
+    ExpressionParts parts;
+    std::vector<ExpressionVariant> variants;
+    const ExpressionVariant* find_variant(const std::string& variant) const;  ///< null when unknown
 };
 
 struct Expressions {
@@ -102,8 +124,9 @@ struct Expressions {
     const Expression* find(const std::string& name) const;  ///< null when unknown
 };
 
-/// Reads expressions.json. Throws Error for unknown units and values outside their ranges.
-Expressions read_expressions(const JsonCursor& json, const FacsTable& facs);
+/// Reads expressions.json. Throws Error for unknown units and muscles, and for values outside their ranges.
+Expressions read_expressions(const JsonCursor& json, const FacsTable& facs,
+                             const ChannelTable& channels);
 
 /// What a source (muscle, action unit or shape) with value 1 adds to the drive.
 struct Expansion {
@@ -112,7 +135,15 @@ struct Expansion {
 
     static Expansion none(const ChannelTable& channels);
     void add(const Expansion& part, double weight);
+    /// Adds a part at an intensity: muscles by the activation of the curve, channels of jaw, eyes and head by the intensity.
+    void add(const Expansion& part, const IntensityCurve& curve, double intensity);
 };
+
+/// The curve of muscles that an expression adds to its units: the mean response of the units of the standard table.
+inline const IntensityCurve& curve_of_added_muscles() {
+    static const IntensityCurve curve({0.125, 0.29, 0.54});
+    return curve;
+}
 
 Expansion expand(const MuscleFraction& fraction, const ChannelTable& channels);
 Expansion expand(const ActionUnit& unit, std::optional<Side> side, const ChannelTable& channels);

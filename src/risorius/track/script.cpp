@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -128,7 +129,7 @@ class Reader {
         track.name = name;
         Range range{0, 1};
         bool is_muscle = false;
-        track.drives = resolve(json, name, range, is_muscle);
+        track.drives = resolve(json, name, range, is_muscle, track.curve);
 
         if (const auto v = json.find("activation")) {
             track.activation = v->boolean();
@@ -148,28 +149,18 @@ class Reader {
     ExpressionEvent expression(const JsonCursor& json, const ScriptHeader& header,
                                int number) const {
         const double duration_s = header.duration_s;
-        json.allow_keys({"expression", "intensity", "start_s", "onset_s", "hold_s", "offset_s",
-                         "side", "asymmetry"});
-        const JsonCursor name = json.at("expression");
-        const Expression* usual = expressions_.find(name.string());
-        if (!usual) {
-            std::vector<std::string_view> known;
-            for (const Expression& e : expressions_.list) known.push_back(e.name);
-            const std::string near = nearest_name(name.string(), known);
-            std::string expected = near.empty() ? "one of"
-                                                : "an expression of the rig (did you mean " +
-                                                      risorius::in_quotes(near) + "?)";
-            if (near.empty())
-                for (std::string_view k : known) expected += " " + in_quotes(std::string(k));
-            name.fail(expected);
-        }
+        json.allow_keys({"expression", "variant", "intensity", "start_s", "onset_s", "hold_s",
+                         "offset_s", "side", "asymmetry"});
+        const Expression& usual = expression_named(json.at("expression"));
+        const ExpressionParts& parts = parts_of(usual, json);
         ExpressionEvent event;
-        event.expression = usual->name;
+        event.expression = usual.name;
+        if (const auto variant = json.find("variant")) event.variant = variant->string();
         event.intensity = optional_number(json, "intensity", 1, {0, 1});
         event.start_s = json.at("start_s").number({0, duration_s});
-        event.onset_s = optional_number(json, "onset_s", usual->onset_s, {0, 60});
-        event.hold_s = optional_number(json, "hold_s", usual->hold_s, {0, kLongest_s});
-        event.offset_s = optional_number(json, "offset_s", usual->offset_s, {0, 60});
+        event.onset_s = optional_number(json, "onset_s", usual.onset_s, {0, 60});
+        event.hold_s = optional_number(json, "hold_s", usual.hold_s, {0, kLongest_s});
+        event.offset_s = optional_number(json, "offset_s", usual.offset_s, {0, 60});
         event.side = read_side(json);
         event.asymmetry = optional_number(json, "asymmetry", 0, {0, kMaxAsymmetry});
         // Random numbers are drawn in a way that is the same for every standard library.
@@ -178,26 +169,50 @@ class Reader {
         const Side weaker = random() % 2 ? Side::kLeft : Side::kRight;
         const double chance = (random() >> 8) * 0x1p-24;
         const double lag = event.onset_s > 0 ? kLatestSide_s * chance / event.onset_s : 0.0;
-        for (const ExpressionUnit& part : usual->units) {
-            // A unit that is one-sided in the table moves to the side that the event asks for.
-            const std::optional<Side> side = event.side ? event.side : part.use.side;
-            const ActionUnit& unit = *facs_.find(part.use.unit);
-            const auto add = [&](std::optional<Side> on, double fraction, double delay) {
-                Expansion drives = Expansion::none(channels_);
-                const double value = fraction * part.use.value * event.intensity;
-                drives.add(expand(unit, on, channels_), value);
-                event.parts.push_back(
-                    {std::move(drives), std::min(delay, 0.9), {part.use.unit, on, value}});
+        const bool even = event.asymmetry == 0;
+        const double least = 1 - event.asymmetry * (0.5 + 0.5 * chance);
+        // Adds a part on the side that it has, or both sides of it apart when they differ.
+        const auto add =
+            [&](std::optional<Side> side, bool sided, double delay,
+                const std::function<ExpressionEvent::Part(std::optional<Side>, double)>& make) {
+                const auto add_side = [&](std::optional<Side> on, double fraction, double later) {
+                    event.parts.push_back(make(on, fraction));
+                    event.parts.back().delay = std::min(later, 0.9);
+                };
+                if (even || side || !sided) {
+                    add_side(side, 1, delay);
+                    return;
+                }
+                for (const Side one : {Side::kLeft, Side::kRight})
+                    if (one == weaker)
+                        add_side(one, least, delay + lag);
+                    else
+                        add_side(one, 1, delay);
             };
-            if (event.asymmetry == 0 || side || !unit.sided) {
-                add(side, 1, part.delay);
-                continue;
-            }
-            for (const Side one : {Side::kLeft, Side::kRight})
-                if (one == weaker)
-                    add(one, 1 - event.asymmetry * (0.5 + 0.5 * chance), part.delay + lag);
-                else
-                    add(one, 1, part.delay);
+        for (const ExpressionUnit& part : parts.units) {
+            const ActionUnit& unit = *facs_.find(part.use.unit);
+            // A unit that is one-sided in the table moves to the side that the event asks for.
+            add(event.side ? event.side : part.use.side, unit.sided, part.delay,
+                [&](std::optional<Side> on, double fraction) {
+                    const double value = fraction * part.use.value * event.intensity;
+                    return ExpressionEvent::Part{expand(unit, on, channels_),
+                                                 unit.curve,
+                                                 value,
+                                                 0,
+                                                 {part.use.unit, on, value}};
+                });
+        }
+        for (const MuscleFraction& muscle : parts.muscles) {
+            const bool paired = channels_.find(muscle.muscle)->paired;
+            add(paired && event.side ? event.side : muscle.side, paired, 0,
+                [&](std::optional<Side> on, double fraction) {
+                    return ExpressionEvent::Part{
+                        expand(MuscleFraction{muscle.muscle, on, muscle.weight}, channels_),
+                        curve_of_added_muscles(),
+                        fraction * event.intensity,
+                        0,
+                        {"", on, 0}};
+                });
         }
         return event;
     }
@@ -252,6 +267,33 @@ class Reader {
     }
 
   private:
+    const Expression& expression_named(const JsonCursor& name) const {
+        if (const Expression* found = expressions_.find(name.string())) return *found;
+        std::vector<std::string_view> known;
+        for (const Expression& e : expressions_.list) known.push_back(e.name);
+        const std::string near = nearest_name(name.string(), known);
+        std::string expected = near.empty() ? "one of"
+                                            : "an expression of the rig (did you mean " +
+                                                  risorius::in_quotes(near) + "?)";
+        if (near.empty())
+            for (std::string_view k : known) expected += " " + in_quotes(std::string(k));
+        name.fail(expected);
+    }
+
+    /// The parts of the expression, or of the variant that the event names.
+    static const ExpressionParts& parts_of(const Expression& expression, const JsonCursor& json) {
+        const auto variant = json.find("variant");
+        if (!variant) return expression.parts;
+        if (const ExpressionVariant* found = expression.find_variant(variant->string()))
+            return found->parts;
+        std::string expected = "a variant of " + risorius::in_quotes(expression.name) + ", ";
+        for (std::size_t i = 0; i < expression.variants.size(); ++i)
+            expected +=
+                (i > 0 ? ", " : "one of ") + risorius::in_quotes(expression.variants[i].name);
+        if (expression.variants.empty()) expected += "which has none";
+        variant->fail(expected);
+    }
+
     void close_lids(const JsonCursor& place, BlinkEvent& event) const {
         const ActionUnit* unit = facs_.find("AU45");
         if (!unit) place.fail("a rig whose facs table has AU45", "none");
@@ -259,9 +301,9 @@ class Reader {
         event.drives.add(expand(*unit, event.side, channels_), event.intensity);
     }
 
-    /// Also returns the range of the channel's values, and whether it is a muscle.
+    /// Also returns the range of the channel's values, whether it is a muscle, and the curve of an action unit.
     Expansion resolve(const JsonCursor& json, const std::string& name, Range& range,
-                      bool& is_muscle) const {
+                      bool& is_muscle, IntensityCurve& curve) const {
         const std::vector<Kinematic> kinematic = kinematic_named(name);
         if (!kinematic.empty()) {
             Expansion drives = Expansion::none(channels_);
@@ -280,6 +322,7 @@ class Reader {
         }
         if (facs_.find(id) || facs_.find(name) || facs_.find(id + ".l") || is_unit_number(id)) {
             const UnitUse use = unit_named(json, name, facs_);
+            curve = facs_.find(use.unit)->curve;
             return expand(*facs_.find(use.unit), use.side, channels_);
         }
         std::vector<std::string_view> known;

@@ -72,18 +72,22 @@ struct ChannelTrack {
     Interpolation interpolation = Interpolation::kSmooth;
     bool activation = false;  ///< sets activation directly, bypassing activation dynamics
     Expansion drives;         ///< contribution of the channel at value 1
+    IntensityCurve curve{};   ///< of an action unit
 };
 
 /// An expression rises along a minimum-jerk curve, is held and falls again. Every unit has its own delay within the onset.
 struct ExpressionEvent {
     struct Part {
-        Expansion drives;  ///< at the intensity of the event
-        double delay = 0;  ///< fraction of the onset
-        UnitUse use;       ///< the part as a unit, with its value in the event
+        Expansion drives;  ///< at full intensity
+        IntensityCurve curve;
+        double intensity = 1;  ///< at the apex
+        double delay = 0;      ///< fraction of the onset
+        UnitUse
+            use;  ///< the part as a unit, with its value in the event; its name is empty for a muscle
     };
-    std::string expression;
-    std::optional<Side> side;  ///< none: as in the table
-    double intensity = 1;      ///< [0, 1]
+    std::string expression, variant;  ///< variant: empty for the usual form
+    std::optional<Side> side;         ///< none: as in the table
+    double intensity = 1;             ///< [0, 1]
     /// Maximum of a random reduction of the intensity on one side, [0, 0.5]. That side also starts up to 40 ms late
     double asymmetry = 0;
     double start_s = 0, onset_s = 0, hold_s = 0, offset_s = 0;

@@ -36,7 +36,7 @@ Timeline::Timeline(const ScriptDescription& script, const ChannelTable& channels
     for (const ChannelTrack& channel : script.channels) {
         Curve curve(channel.keys, channel.interpolation);
         if (!channel.activation) {
-            sources_.push_back({std::move(curve), channel.drives});
+            sources_.push_back({std::move(curve), channel.drives, channel.curve});
             continue;
         }
         DirectActivation direct{std::move(curve), {}};
@@ -68,12 +68,13 @@ Drive Timeline::together_at(double t_s) const {
     sum.excitation = Eigen::VectorXd::Zero(column_min_.size());
 
     // Sources that are added.
-    for (const Source& source : sources_) sum.add(source.drives, source.curve.at(t_s));
+    for (const Source& source : sources_)
+        sum.add(source.drives, source.intensity, source.curve.at(t_s));
     for (const EmgTrack& emg : emg_) sum.add(emg.drives, emg.excitation.at(t_s));
     for (const ExpressionEvent& event : expressions_)
         for (const ExpressionEvent::Part& part : event.parts)
             if (const double fraction = expression_profile(event, part.delay, t_s); fraction > 0)
-                sum.add(part.drives, fraction);
+                sum.add(part.drives, part.curve, fraction * part.intensity);
     for (const BlinkEvent& blink : blinks_) {
         const double end_s = blink.start_s + blink.duration_s - kBlinkReopening_s;
         if (t_s < blink.start_s || t_s >= end_s) continue;

@@ -40,6 +40,7 @@ class Timeline {
     struct Source {
         Curve curve;
         Expansion drives;
+        IntensityCurve intensity;
     };
     struct DirectActivation {
         Curve curve;

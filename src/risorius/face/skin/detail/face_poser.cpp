@@ -25,16 +25,18 @@ FacePoser::FacePoser(const rig::Head& head, const rig::RigDescription& rig, cons
     : head_(head),
       rig_(rig),
       joint_(joint),
+      lids_(lids),
       shell_(shell),
       mesh_(mesh),
       channels_(rig.channels()),
       binding_(head, jaw, shell),
+      lid_pull_(head, rig.eyes),
       follow_(head, rig, lids, binding_),
       skin_(head, rig, jaw, lids, shell, mesh, binding_),
       lining_(head) {}
 
-LidPose FacePoser::lid(int side, const Eigen::VectorXd& activation,
-                       const track::Drive& drive) const {
+LidPose FacePoser::lid(int side, const Eigen::VectorXd& activation, const track::Drive& drive,
+                       const LidPull& pull) const {
     const Side s = side == 0 ? Side::kLeft : Side::kRight;
     const auto of = [&](const char* id) {
         const int column = channels_.column(id, s);
@@ -65,6 +67,10 @@ LidPose FacePoser::lid(int side, const Eigen::VectorXd& activation,
         drive.at(side == 0 ? track::Kinematic::kGazeYawLeft : track::Kinematic::kGazeYawRight);
     pose.upper_gaze_rad -=
         kDegree * rig_.eyes.wide_deg * (0.8 * std::max(0.0, levator) + 0.2 * of("superior_tarsal"));
+    const EyeLids& lids = lids_[side];
+    const double fissure_rad = lids.upper_angle(0.5) - lids.lower_angle(0.5);
+    pose.upper_gaze_rad += open * pull.upper_m / lids.zone_m();
+    pose.lower_lift += open * pull.lower_m / (lids.zone_m() * std::max(fissure_rad, 0.1));
     return pose;
 }
 
@@ -86,19 +92,46 @@ Points FacePoser::skin_displacement(const Points& x) const {
     return displacement;
 }
 
-// Transposes the motion of the parts that follow the skin; each of their vertices depends on itself alone.
-Points FacePoser::pull_through(const FollowDrive& drive, const Points& surface,
+FollowDrive FacePoser::follow_drive(const FaceMoment& moment,
+                                    const std::array<LidPull, 2>& pull) const {
+    const track::Drive& drive = moment.drive;
+    return {moment.mandible,
+            gaze(drive),
+            lids(moment.activation, drive, pull),
+            drive.at(track::Kinematic::kTongueOut),
+            drive.at(track::Kinematic::kTongueUp),
+            head_motion(head_, drive)};
+}
+
+// Transposes the motion of the parts that follow the skin. Each of their vertices depends on itself, and those of the lids on the skin
+// of brow and cheek.
+Points FacePoser::pull_through(const FaceMoment& moment, const Points& surface,
                                const Points& slope) const {
     constexpr double kDifference_m = 1e-6;
+    const std::array<LidPull, 2> pull = lid_pull_.of(surface);
+    const auto followed = [&](const std::array<LidPull, 2>& with, Points vertices) {
+        follow_.apply(follow_drive(moment, with), vertices);
+        return vertices;
+    };
     Points out(slope.rows(), 3);
     for (int k = 0; k < 3; ++k) {
         Points above = surface, below = surface;
         above.col(k).array() += kDifference_m;
         below.col(k).array() -= kDifference_m;
-        follow_.apply(drive, above);
-        follow_.apply(drive, below);
-        out.col(k) = (above - below).cwiseProduct(slope).rowwise().sum() / (2 * kDifference_m);
+        const Points change = followed(pull, std::move(above)) - followed(pull, std::move(below));
+        out.col(k) = change.cwiseProduct(slope).rowwise().sum() / (2 * kDifference_m);
     }
+    std::array<LidPull, 2> by_pull;
+    for (std::size_t side = 0; side < 2; ++side)
+        for (double LidPull::*lid : {&LidPull::upper_m, &LidPull::lower_m}) {
+            std::array<LidPull, 2> more = pull, less = pull;
+            more[side].*lid += kDifference_m;
+            less[side].*lid -= kDifference_m;
+            by_pull[side].*lid =
+                (followed(more, surface) - followed(less, surface)).cwiseProduct(slope).sum() /
+                (2 * kDifference_m);
+        }
+    lid_pull_.add_gradient(surface, by_pull, out);
     return out;
 }
 
@@ -118,24 +151,18 @@ FacePose FacePoser::pose(const FaceMoment& moment, Folds folds, Points* pulled) 
     out.mandible = moment.mandible;
     out.jaw = joint_.place(moment.mandible);
     out.jaw_open = drive.at(track::Kinematic::kJawOpen);
-    const std::array<Mat3, 2> turned = gaze(drive);
     out.vertices = head_.vertices;
     binding_.apply(skin_displacement(moment.x), moment.mandible, out.vertices);
+    const FollowDrive followed = follow_drive(moment, lid_pull_.of(out.vertices));
     if (folds == Folds::kFormed) {
         out.fold_depth = skin_.apply(moment.activation, out.vertices);
         lining_.stay_behind(out.vertices);
     }
-    out.head = head_motion(head_, drive);
-    const FollowDrive follow_drive{moment.mandible,
-                                   turned,
-                                   lids(moment.activation, drive),
-                                   drive.at(track::Kinematic::kTongueOut),
-                                   drive.at(track::Kinematic::kTongueUp),
-                                   out.head};
-    if (pulled) *pulled = pull_through(follow_drive, out.vertices, *pulled);
-    follow_.apply(follow_drive, out.vertices);
+    out.head = followed.head;
+    if (pulled) *pulled = pull_through(moment, out.vertices, *pulled);
+    follow_.apply(followed, out.vertices);
     for (std::size_t side = 0; side < 2; ++side)
-        out.eye_rotation[side] = out.head.linear() * turned[side];
+        out.eye_rotation[side] = out.head.linear() * followed.gaze[side];
     return out;
 }
 

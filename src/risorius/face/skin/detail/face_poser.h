@@ -14,6 +14,7 @@
 #include "risorius/face/anatomy/shell.h"
 #include "risorius/face/anatomy/tissue_mesh.h"
 #include "risorius/face/skin/detail/face_pose.h"
+#include "risorius/face/skin/detail/lid_pull.h"
 #include "risorius/face/skin/detail/mouth_lining.h"
 #include "risorius/face/skin/detail/rigid_followers.h"
 #include "risorius/face/skin/detail/skin_binding.h"
@@ -42,10 +43,11 @@ class FacePoser {
     FacePoser(const FacePoser&) = delete;
     FacePoser& operator=(const FacePoser&) = delete;
 
-    /// Return the state of the lids, and the rotation of the eyes in the head, left and right.
-    std::array<LidPose, 2> lids(const Eigen::VectorXd& activation,
-                                const track::Drive& drive) const {
-        return {lid(0, activation, drive), lid(1, activation, drive)};
+    /// Return the state of the lids, and the rotation of the eyes in the head, left and right. Without `pull`, the lids are those that
+    /// their own muscles and the gaze move: to them the tissue is attached. Brow and cheek move the visible lids in addition.
+    std::array<LidPose, 2> lids(const Eigen::VectorXd& activation, const track::Drive& drive,
+                                const std::array<LidPull, 2>& pull = {}) const {
+        return {lid(0, activation, drive, pull[0]), lid(1, activation, drive, pull[1])};
     }
     std::array<Mat3, 2> gaze(const track::Drive& drive) const;
 
@@ -68,9 +70,11 @@ class FacePoser {
     const WrinkleLines& lines() const { return skin_.lines(); }
 
   private:
-    LidPose lid(int side, const Eigen::VectorXd& activation, const track::Drive& drive) const;
+    LidPose lid(int side, const Eigen::VectorXd& activation, const track::Drive& drive,
+                const LidPull& pull) const;
     Points skin_displacement(const Points& x) const;
-    Points pull_through(const FollowDrive& drive, const Points& surface, const Points& slope) const;
+    FollowDrive follow_drive(const FaceMoment& moment, const std::array<LidPull, 2>& pull) const;
+    Points pull_through(const FaceMoment& moment, const Points& surface, const Points& slope) const;
     /// Whether the pose contains what the skin layer adds to the motion of the tissue. pull_back() leaves it out.
     enum class Folds { kFormed, kLeftOut };
     /// `pulled`, if given, is a gradient by the vertices. It is converted to the gradient by the skin vertices as the tissue moves them,
@@ -80,10 +84,12 @@ class FacePoser {
     const rig::Head& head_;
     const rig::RigDescription& rig_;
     const JawJoint& joint_;
+    const std::array<EyeLids, 2>& lids_;
     const Shell& shell_;
     const TissueMesh& mesh_;
     track::ChannelTable channels_;
     SkinBinding binding_;
+    LidPullMeasure lid_pull_;
     RigidFollowers follow_;
     SkinLayer skin_;
     MouthLining lining_;

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// Reads the action units of a face as a coder of FACS measures them: how far the landmarks of a unit move, compared with the targets of
+/// facs.json, how evenly they move with the intensity, and what happens to the eye opening and the mouth.
+///
+/// Every pose is an equilibrium of the left and the right unit together. The targets are those of the average head. They are scaled to
+/// the head region by region: eyes and brows by the width of the eye fissure, mouth by the width of the mouth, everything else by the
+/// height of the face from nasion to chin.
+///
+///   gain      sum over landmarks of moved . target / sum of target . target: 1 when the unit moves as far as it should
+///   response  the fraction of its own full way, measured in the same direction, at intensity 0.25, 0.5 and 0.75
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "risorius/core/types.h"
+#include "risorius/face/face.h"
+#include "risorius/rig/rig_description.h"
+#include "risorius/scene/landmark_points.h"
+#include "risorius/track/channels.h"
+#include "risorius/track/facs.h"
+
+namespace risorius::scene {
+
+/// A landmark of a unit, on the left side or the midline.
+struct LandmarkReading {
+    std::string landmark;
+    Vec3 target_mm, moved_mm;  ///< on this head
+    double gain = 0;           ///< along the target
+};
+
+/// Lengths that coders look at; left eye. All in mm.
+struct FaceLengths {
+    double lid_aperture = 0;   ///< between the middles of the lid margins
+    double mouth_width = 0;    ///< between the corners
+    double lip_gap = 0;        ///< between the lips in the middle; 0 or less: closed
+    double corner_height = 0;  ///< mean of both corners, above that of the neutral face
+};
+
+struct UnitReading {
+    std::string unit;  ///< "AU12"
+    std::string name;  ///< "Lip corner puller"
+    std::vector<LandmarkReading> landmarks;
+    double gain = 0;
+    std::array<double, 3> response{};
+    FaceLengths change;  ///< from the neutral face, at intensity 1
+    bool in_equilibrium = true;
+};
+
+/// Reads the units of one face. The face is left in the last pose.
+class UnitReader {
+  public:
+    /// Both must outlive this object.
+    UnitReader(face::Face& face, const rig::RigDescription& rig);
+
+    const Points& neutral() const { return neutral_; }
+    FaceLengths lengths(const Points& vertices) const;
+    /// Reads the unit at full intensity and at a quarter, a half and three quarters. It needs landmark targets.
+    UnitReading read(const track::ActionUnit& unit);
+    /// Returns the gain of `sum` along the targets of `unit`.
+    double gain(const track::ActionUnit& unit, const track::Expansion& sum);
+
+  private:
+    struct Pose {
+        Points vertices;
+        bool in_equilibrium;
+    };
+    Pose pose(const track::Expansion& sum);
+    std::vector<LandmarkReading> targets(const track::ActionUnit& unit) const;
+    Vec3 moved_mm(const std::string& landmark, const Points& vertices) const;
+    std::string side_of(const std::string& landmark) const;
+    const rig::AtlasLandmark& atlas(const std::string& id) const;
+    double ratio(const char* a, const char* b) const;
+    double scale(const std::string& landmark) const;
+
+    face::Face& face_;
+    const rig::RigDescription& rig_;
+    LandmarkPoints points_;
+    track::ChannelTable channels_;
+    track::Drive rest_;
+    Points neutral_;
+};
+
+}  // namespace risorius::scene
