@@ -17,6 +17,7 @@
 #include "risorius/report/output_paths.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/rig/rig_description.h"
+#include "risorius/talk/say_event.h"
 
 namespace risorius::animate {
 
@@ -244,6 +245,14 @@ void plan_times(const RenderRequest& request, RenderJob& job) {
     job.still = true;
 }
 
+/// The sound of what is said, unless the request has another.
+void add_spoken_sound(const RenderRequest& request, RenderJob& job) {
+    if (request.audio || job.still || job.speech.sound_file.empty()) return;
+    job.video.sound =
+        std::make_shared<media::Recording>(media::open_recording(job.speech.sound_file));
+    job.video.sound_offset_samples = job.speech.sound_offset_samples;
+}
+
 /// The script as read, from memory or from its file.
 ScriptInput script_input(const RenderRequest& request, RenderInputs& inputs) {
     if (request.script_in_memory)
@@ -261,9 +270,17 @@ void plan_rig_and_script(const RenderRequest& request, const JsonCursor& script,
     job.script = track::read_script(script, channels, rig.facs, rig.expressions);
     for (const fs::path& recording : job.script.recordings)
         job.recordings.push_back({recording, media::sha256_of_file(recording)});
-    if (request.against)
+    job.speech = talk::plan_speech(job.script.says, job.script.header.duration_s, job.rig->files);
+    job.script.sources = job.speech.sources;
+    for (const fs::path& file : job.speech.files)
+        job.recordings.push_back({file, media::sha256_of_file(file)});
+    if (request.against) {
         job.reference = track::read_script(inputs.script(*request.against)->json, channels,
                                            rig.facs, rig.expressions);
+        job.reference->sources =
+            talk::plan_speech(job.reference->says, job.reference->header.duration_s, job.rig->files)
+                .sources;
+    }
     if (request.shapes) job.shapes = {*request.shapes, media::sha256_of_file(*request.shapes)};
 }
 
@@ -299,6 +316,7 @@ RenderJob plan_render_job(const RenderRequest& request, RenderInputs& inputs) {
     plan_times(request, job);
 
     plan_rig_and_script(request, script.json, inputs, job);
+    add_spoken_sound(request, job);
     job.scale = request.scale;
     job.marks = request.marks;
     job.flipped_motion = request.flipped_motion;

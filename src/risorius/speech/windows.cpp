@@ -286,4 +286,27 @@ ArticulationTargets targets_of(const Utterance& utterance, const PhoneTable& tab
     return Planner(utterance, table, style).plan();
 }
 
+void change_closures(const std::vector<ClosureChange>& changes, ArticulationTargets& targets) {
+    for (const ClosureChange& change : changes) {
+        const bool known =
+            std::any_of(targets.closures.begin(), targets.closures.end(),
+                        [&](const LipClosure& c) { return c.first_phone == change.phone; });
+        if (!known) continue;
+        const auto move = [&](double& from_s, double& to_s) {
+            from_s -= change.earlier_s;
+            to_s = std::max(from_s + 0.005, to_s - change.shorter_s);
+        };
+        for (Window& window : targets.windows) {
+            if (window.phone != change.phone) continue;
+            move(window.from_s, window.to_s);
+            if (window.parameter == Parameter::kGap) window.target -= change.deeper_mm;
+        }
+        for (Bound& bound : targets.bounds) {
+            if (bound.phone != change.phone) continue;
+            move(bound.from_s, bound.to_s);
+            if (bound.parameter == Parameter::kGap) bound.max -= change.deeper_mm;
+        }
+    }
+}
+
 }  // namespace risorius::speech

@@ -58,6 +58,14 @@ struct LabiodentalContact {
     int phone;
 };
 
+/// A change of one closure, as a check of the simulated face asks for it.
+struct ClosureChange {
+    int phone = 0;         ///< index of its first phone
+    double deeper_mm = 0;  ///< the lips press by this more, >= 0
+    double earlier_s = 0;  ///< they begin to close earlier by this, >= 0
+    double shorter_s = 0;  ///< they begin to open earlier by this, >= 0
+};
+
 /// Everything that is asked of the mouth. Times are from the first sample of the sound, s.
 struct ArticulationTargets {
     double start_s, end_s;  ///< where the curves begin and end, at rest
@@ -79,5 +87,8 @@ inline constexpr double kAfterClosure_s = 0.010, kBeforeRelease_s = 0.018;
 /// Throws Error for a symbol that `table` does not know.
 ArticulationTargets targets_of(const Utterance& utterance, const PhoneTable& table,
                                const SpeechStyle& style = {});
+
+/// Changes the windows and bounds of closures. Changes of phones that begin no closure have no effect.
+void change_closures(const std::vector<ClosureChange>& changes, ArticulationTargets& targets);
 
 }  // namespace risorius::speech

@@ -22,6 +22,7 @@ Timeline::Timeline(const ScriptDescription& script, const ChannelTable& channels
     : emg_(script.emg),
       expressions_(script.expressions),
       blinks_(script.blinks),
+      others_(script.sources),
       column_min_(channels.column_min()),
       late_s_(script.late_s) {
     if (script.weakness.size() > 0) strength_ = 1 - script.weakness.array();
@@ -87,6 +88,8 @@ Drive Timeline::together_at(double t_s) const {
         const KinematicValues values = idle.at(t_s);
         for (std::size_t k = 0; k < values.size(); ++k) sum.kinematic[k] += values[k];
     }
+
+    for (const auto& other : others_) other->add(t_s, sum);
 
     // Limits to what a face can do.
     Drive drive;

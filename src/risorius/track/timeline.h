@@ -52,6 +52,7 @@ class Timeline {
     std::vector<ExpressionEvent> expressions_;
     std::vector<BlinkEvent> blinks_;
     std::vector<IdleMotion> idle_;
+    std::vector<std::shared_ptr<const DriveSource>> others_;
     Eigen::VectorXd column_min_;
     Eigen::VectorXd strength_;  ///< per column; empty: all muscles have full strength
     std::array<double, 2> late_s_;
