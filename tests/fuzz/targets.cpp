@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "paths.h"
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
 #include "risorius/design/conditions.h"
@@ -20,6 +21,9 @@
 #include "risorius/media/hdr_file.h"
 #include "risorius/media/picture_file.h"
 #include "risorius/signal/recording.h"
+#include "risorius/speech/labels.h"
+#include "risorius/speech/phone_table.h"
+#include "risorius/speech/utterance.h"
 #include "risorius/track/script.h"
 #include "temporary_folder.h"
 #include "track/standard_tables.h"
@@ -88,6 +92,35 @@ void read_sound(const std::uint8_t* data, std::size_t size) {
     media::part_of(recording, -10, 1000);
 }
 
+const speech::PhoneTable& phones() {
+    static const speech::PhoneTable table =
+        speech::PhoneTable::read_folder(fs::path(RISORIUS_SOURCE_DIR) / "rigs/standard");
+    return table;
+}
+
+void read_labels_as(const std::string& format, const std::uint8_t* data, std::size_t size) {
+    const speech::LabelFile labels =
+        speech::parse_labels(text_of(data, size), format, "input", 48000);
+    speech::utterance_of_labels(labels, {}, phones(), 48000, {}, "input");
+}
+
+void read_textgrid(const std::uint8_t* data, std::size_t size) {
+    read_labels_as("textgrid", data, size);
+}
+
+/// As all other formats, one after another.
+void read_labels(const std::uint8_t* data, std::size_t size) {
+    for (const std::string& format : speech::label_formats()) try {
+            if (format != "textgrid") read_labels_as(format, data, size);
+        } catch (const Error&) {
+        }
+}
+
+void read_utterance(const std::uint8_t* data, std::size_t size) {
+    speech::utterance_text(
+        speech::read_utterance(parse_json_text(text_of(data, size), "input.json"), phones()));
+}
+
 void read_picture(const std::uint8_t* data, std::size_t size) {
     media::read_picture({data, data + size}, "input.png");
 }
@@ -113,7 +146,10 @@ const std::vector<Target>& targets() {
         {"mesh_message", read_message},
         {"hdr", [](auto* data, auto size) { media::read_hdr(file_of("light.hdr", data, size)); }},
         {"picture", read_picture},
-        {"sound", read_sound}};
+        {"sound", read_sound},
+        {"textgrid", read_textgrid},
+        {"labels", read_labels},
+        {"utterance", read_utterance}};
     return list;
 }
 

@@ -35,6 +35,7 @@ struct SpeakArguments {
     std::string said, size;
     fs::path script;
     speech::SpeechStyle style;
+    double gestures = 0.6, blinks = 1;
     int passes = 2;
 };
 
@@ -113,6 +114,11 @@ bool same(const std::vector<speech::ClosureChange>& one,
                       });
 }
 
+/// More closures hold, and, of as many, fewer of them stay shut too long.
+bool is_better(const talk::CheckedSpeech& one, const talk::CheckedSpeech& other) {
+    return std::pair(one.held, one.opened) > std::pair(other.held, other.opened);
+}
+
 /// Writes the utterance, the script and what the script shows.
 void render_speech(SpeakArguments& arguments, talk::SpokenResult& result,
                    const speech::PhoneTable& table) {
@@ -125,6 +131,8 @@ void render_speech(SpeakArguments& arguments, talk::SpokenResult& result,
                                                                       : arguments.input.utterance;
     options.utterance = seen_from(out, utterance_file);
     options.style = arguments.style;
+    options.gestures = arguments.gestures;
+    options.blinks = arguments.blinks;
     options.fps = arguments.render.fps.value_or(60);
     if (!arguments.script.empty()) options.base = JsonCursor::read_file(arguments.script);
     if (arguments.render.rig)
@@ -144,20 +152,24 @@ void render_speech(SpeakArguments& arguments, talk::SpokenResult& result,
     });
     // The face is simulated without pictures. Closures that leak are pressed deeper, those that come late begin earlier.
     talk::ScriptChecker checker(files, animate::quality_of(arguments.render));
-    talk::CheckedSpeech checked;
+    talk::CheckedSpeech best;
     for (int pass = 0;; ++pass) {
-        checked = checker.check(JsonCursor::from_json(script, script_file.string()),
-                                [&](double fraction) {
-                                    bar.monitor().report(fraction, "checking closures of the lips");
-                                });
+        talk::CheckedSpeech checked = checker.check(
+            JsonCursor::from_json(script, script_file.string()), [&](double fraction) {
+                bar.monitor().report(fraction, "checking closures of the lips");
+            });
+        const std::vector<talk::ClosureCheck> closures = checked.closures.back();
+        if (pass == 0 || is_better(checked, best)) {
+            best = std::move(checked);
+            save();
+        }
         if (pass >= arguments.passes) break;
-        std::vector<speech::ClosureChange> changes =
-            talk::changes_for(checked.closures.back(), options.adjust);
+        std::vector<speech::ClosureChange> changes = talk::changes_for(closures, options.adjust);
         if (same(changes, options.adjust)) break;
         options.adjust = std::move(changes);
         script = talk::speak_script(result.spoken.utterance, options);
-        save();
     }
+    const talk::CheckedSpeech& checked = best;
     write_one(beside(out, ".speech.tsv"),
               talk::speech_table(checked.track, checked.utterances, table));
     if (!arguments.common.quiet && checked.total > 0)

@@ -270,16 +270,16 @@ void plan_rig_and_script(const RenderRequest& request, const JsonCursor& script,
     job.script = track::read_script(script, channels, rig.facs, rig.expressions);
     for (const fs::path& recording : job.script.recordings)
         job.recordings.push_back({recording, media::sha256_of_file(recording)});
-    job.speech = talk::plan_speech(job.script.says, job.script.header.duration_s, job.rig->files);
-    job.script.sources = job.speech.sources;
+    job.speech = talk::plan_speech(job.script.says, job.script.header, job.rig->files);
+    talk::add_to_script(job.speech, job.script);
     for (const fs::path& file : job.speech.files)
         job.recordings.push_back({file, media::sha256_of_file(file)});
     if (request.against) {
         job.reference = track::read_script(inputs.script(*request.against)->json, channels,
                                            rig.facs, rig.expressions);
-        job.reference->sources =
-            talk::plan_speech(job.reference->says, job.reference->header.duration_s, job.rig->files)
-                .sources;
+        talk::add_to_script(
+            talk::plan_speech(job.reference->says, job.reference->header, job.rig->files),
+            *job.reference);
     }
     if (request.shapes) job.shapes = {*request.shapes, media::sha256_of_file(*request.shapes)};
 }

@@ -5,9 +5,11 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/existing_file.h"
+#include "risorius/core/input_log.h"
 #include "risorius/core/output_set.h"
 #include "risorius/media/mono_sound.h"
 #include "risorius/speech/trajectory.h"
+#include "risorius/talk/detail/gesture_drive.h"
 #include "risorius/talk/detail/speech_drive.h"
 #include "risorius/talk/rig_voice_file.h"
 
@@ -18,7 +20,7 @@ namespace {
 constexpr double kLongestPhone_s = 10;
 
 speech::SpeechStyle read_style(const JsonCursor& json) {
-    json.allow_keys({"jaw", "lips", "anticipation"});
+    json.allow_keys({"jaw", "lips", "anticipation", "gestures", "blinks"});
     speech::SpeechStyle style;
     if (const auto v = json.find("jaw")) style.jaw = v->number({0, 2});
     if (const auto v = json.find("lips")) style.lips = v->number({0, 2});
@@ -105,7 +107,11 @@ SayEvent read_say(const JsonCursor& event, double duration_s) {
     if (const auto v = event.find("rate")) out.input.voice.rate = v->number({0.3, 3});
     if (const auto v = event.find("pitch")) out.input.voice.pitch = v->integer(0, 99);
     out.start_s = event.at("start_s").number({-duration_s, duration_s});
-    if (const auto v = event.find("style")) out.style = read_style(*v);
+    if (const auto v = event.find("style")) {
+        out.style = read_style(*v);
+        if (const auto g = v->find("gestures")) out.gestures = g->number({0, 2});
+        if (const auto b = v->find("blinks")) out.blinks = b->number({0, 2});
+    }
     if (const auto v = event.find("adjust"))
         for (const JsonCursor& item : v->items()) {
             item.allow_keys({"phone", "deeper_mm", "earlier_s", "shorter_s"});
@@ -128,14 +134,21 @@ SayEvent read_say(const JsonCursor& event, double duration_s) {
     return out;
 }
 
-PlannedSpeech plan_speech(const std::vector<JsonCursor>& says, double duration_s,
+void add_to_script(const PlannedSpeech& speech, track::ScriptDescription& script) {
+    script.sources.insert(script.sources.end(), speech.sources.begin(), speech.sources.end());
+    for (const track::BlinkEvent& blink : speech.blinks)
+        if (blink.start_s >= 0 && blink.start_s <= script.header.duration_s)
+            script.blinks.push_back(blink);
+}
+
+PlannedSpeech plan_speech(const std::vector<JsonCursor>& says, const track::ScriptHeader& header,
                           const scene::RigFiles& files) {
     PlannedSpeech out;
     if (says.empty()) return out;
     const speech::PhoneTable table = speech::PhoneTable::standard();
     std::optional<RigVoice> voice;
     for (const JsonCursor& say : says) {
-        const SayEvent event = read_say(say, duration_s);
+        const SayEvent event = read_say(say, header.duration_s);
         SpokenResult spoken =
             event.timed_phones.empty() ? read_spoken(event.input, table) : of_timed(event, table);
         const speech::Utterance& utterance = spoken.spoken.utterance;
@@ -155,6 +168,13 @@ PlannedSpeech plan_speech(const std::vector<JsonCursor>& says, double duration_s
             speech::change_closures(event.adjust, changed);
             out.sources.push_back(
                 drive_of(speech::curves_of(changed), *voice, files.rig, event.start_s));
+            const speech::Prosody prosody = speech::prosody_of(
+                utterance, table,
+                {event.gestures, event.blinks, static_cast<std::uint64_t>(header.seed)});
+            if (auto gestures = gesture_drive(prosody, files.rig, event.start_s))
+                out.sources.push_back(std::move(gestures));
+            for (track::BlinkEvent& blink : blinks_of(prosody, files.rig, event.start_s))
+                out.blinks.push_back(std::move(blink));
         }
         out.utterances.push_back({utterance, std::move(targets), event.start_s, event.face});
         if (!event.sound) continue;
@@ -171,6 +191,8 @@ PlannedSpeech plan_speech(const std::vector<JsonCursor>& says, double duration_s
             out.keeps = folder;
         }
         out.sound_file = sound;
+        std::optional<ReadingFormerOutput> own_file;
+        if (out.keeps) own_file.emplace();
         const int rate_hz = media::read_mono_sound(sound).rate_hz;
         out.sound_offset_samples =
             std::llround(event.start_s * rate_hz) + event.sound_offset_samples;

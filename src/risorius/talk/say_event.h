@@ -21,6 +21,7 @@ struct SayEvent {
     std::vector<std::pair<std::string, double>> timed_phones;
     double start_s = 0;  ///< time of the first sample of the sound
     speech::SpeechStyle style;
+    double gestures = 0, blinks = 0;            ///< keys of "style", see speech::ProsodyOptions
     std::vector<speech::ClosureChange> adjust;  ///< "adjust": closures, as a check found them
     bool face = true;                           ///< false: only the sound, with a still face
     bool sound = true;                          ///< false: "none"
@@ -44,6 +45,7 @@ struct PlacedUtterance {
 struct PlannedSpeech {
     std::vector<PlacedUtterance> utterances;
     std::vector<std::shared_ptr<const track::DriveSource>> sources;
+    std::vector<track::BlinkEvent> blinks;
     /// The sound, if there is one; it may be a file that `keeps` removes at its end.
     std::filesystem::path sound_file;
     std::int64_t sound_offset_samples = 0;
@@ -53,7 +55,10 @@ struct PlannedSpeech {
 
 /// Reads the events and plans the mouth. Throws Error when an event begins too early for the face to move before it, or when two
 /// events have a sound.
-PlannedSpeech plan_speech(const std::vector<JsonCursor>& says, double duration_s,
+PlannedSpeech plan_speech(const std::vector<JsonCursor>& says, const track::ScriptHeader& header,
                           const scene::RigFiles& files);
+
+/// Adds what speech asks of the face to a script.
+void add_to_script(const PlannedSpeech& speech, track::ScriptDescription& script);
 
 }  // namespace risorius::talk

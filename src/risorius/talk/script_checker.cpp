@@ -15,8 +15,8 @@ CheckedSpeech ScriptChecker::check(const JsonCursor& json,
     const track::ChannelTable channels = files_.rig.channels();
     track::ScriptDescription script =
         track::read_script(json, channels, files_.rig.facs, files_.rig.expressions);
-    PlannedSpeech speech = plan_speech(script.says, script.header.duration_s, files_);
-    script.sources = speech.sources;
+    PlannedSpeech speech = plan_speech(script.says, script.header, files_);
+    add_to_script(speech, script);
     face_.drive_jaw_by(script.header.jaw);
     face_.set_gravity(script.header.gravity_m_s2);
     face_.move(script.header.motion);
@@ -30,6 +30,7 @@ CheckedSpeech ScriptChecker::check(const JsonCursor& json,
             ++out.total;
             out.reached += check.reached();
             out.held += check.held();
+            out.opened += check.open_s < check.release_s + 0.05;
         }
         out.utterances.push_back(std::move(placed));
     }

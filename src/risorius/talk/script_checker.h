@@ -18,6 +18,7 @@ struct CheckedSpeech {
     std::vector<PlacedUtterance> utterances;
     std::vector<std::vector<ClosureCheck>> closures;  ///< of each utterance
     int reached = 0, held = 0, total = 0;
+    int opened = 0;  ///< closures that are open again 50 ms after their release
 };
 
 class ScriptChecker {

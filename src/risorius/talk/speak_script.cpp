@@ -41,6 +41,8 @@ Json speak_script(const speech::Utterance& utterance, const SpeakScriptOptions& 
     if (options.style.lips != usual.lips) event["style"]["lips"] = options.style.lips;
     if (options.style.anticipation != usual.anticipation)
         event["style"]["anticipation"] = options.style.anticipation;
+    if (options.gestures > 0) event["style"]["gestures"] = options.gestures;
+    if (options.blinks > 0) event["style"]["blinks"] = options.blinks;
     for (const speech::ClosureChange& change : options.adjust) {
         Json one{{"phone", change.phone}};
         const auto put = [&](const char* key, double value) {

@@ -6,6 +6,7 @@
 
 #include "risorius/core/data_folder.h"
 #include "risorius/core/error.h"
+#include "risorius/core/input_log.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/core/read_file.h"
@@ -127,6 +128,8 @@ Spoken speak(const VoiceRequest& request, const speech::PhoneTable& table) {
     if (result.exit_code != 0)
         throw Error(option_name("voice"), "a request that " + voice.program + " can speak",
                     readable_text(result.output.substr(0, result.output.find('\n'))));
+    // The files are gone soon, and other ones may get their numbers.
+    const ReadingFormerOutput own_files;
     const media::MonoSound sound = media::read_mono_sound(wav);
     Spoken out;
     out.utterance = utterance_of_voice(

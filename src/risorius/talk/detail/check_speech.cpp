@@ -21,6 +21,7 @@ constexpr double kBefore_s = 0.15, kAfter_s = 0.2;
 // Lateness that is left as it is, and the most that one pass changes
 constexpr double kLate_s = 0.010, kMaxEarlier_s = 0.03, kOpensLate_s = 0.017;
 constexpr double kDeeper = 2, kDeeperAtLeast_mm = 0.6, kDeepest_mm = 6;
+constexpr double kStuck_s = 0.05, kLessDeep = 0.6;
 constexpr double kEarliest_s = 0.06, kShortest_s = 0.03;
 
 std::string cell(double value, int decimals) {
@@ -111,7 +112,9 @@ std::vector<ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
             check.open_s > check.release_s + kOpensLate_s)
             change.shorter_s =
                 std::min(check.open_s - check.release_s - kOpensLate_s / 2, kMaxEarlier_s / 2);
-        if (change.deeper_mm == 0 && change.earlier_s == 0 && change.shorter_s == 0) continue;
+        const bool stuck = check.held() && !(check.open_s < check.release_s + kStuck_s);
+        if (change.deeper_mm == 0 && change.earlier_s == 0 && change.shorter_s == 0 && !stuck)
+            continue;
         const auto known = std::find_if(before.begin(), before.end(), [&](const ClosureChange& c) {
             return c.phone == change.phone;
         });
@@ -120,6 +123,8 @@ std::vector<ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
         to.deeper_mm = std::min(kDeepest_mm, to.deeper_mm + change.deeper_mm);
         to.earlier_s = std::min(kEarliest_s, to.earlier_s + change.earlier_s);
         to.shorter_s = std::min(kShortest_s, to.shorter_s + change.shorter_s);
+        // Lips that are pressed too hard do not part in time.
+        if (stuck) to.deeper_mm *= kLessDeep;
     }
     return before;
 }

@@ -2,6 +2,7 @@
 // Simulates the poses of RigVoice.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "risorius/core/counter_rng.h"
 #include "risorius/face/surfaces.h"
@@ -20,6 +21,8 @@ constexpr double kSealStep_mm = 1.5, kSealEnd_mm = 4.5;
 constexpr int kIterations = 400;
 // A pose is left out when the solver did not come near its equilibrium, or when it is no mouth of speech.
 constexpr double kLargestGap_mm = 30;
+constexpr double kCorrection = 0.8, kLargestCorrection_mm = 3;
+constexpr double kRounded_mm = 1;  // protrusion of rounded lips
 
 /// Phones whose targets the rounds are for: one of each kind of mouth.
 constexpr const char* kTargets[] = {"i", "y", "e", "ø", "ɛ", "æ", "ɑ", "o", "u", "ə",
@@ -57,27 +60,50 @@ class Fitter {
         for (int i = 0; i < kClosed; ++i) add(closed(i));
         for (int i = 0; i < kLabiodental; ++i) add(labiodental(i));
         for (int i = 0; i < kAround; ++i) add(around(i));
-        const speech::PhoneTable table = speech::PhoneTable::standard();
+        // Each round aims beyond a target by what the rounds before have missed it.
+        std::vector<WantedMouth> targets = wanted_of_phones(), aims = targets;
         for (int round = 0; round < kRounds; ++round) {
             const RigVoice so_far(poses_, jaw_travel_mm_, channels_.column_names());
-            for (const char* symbol : kTargets) {
-                const speech::PhoneEntry phone = table.phone(symbol, symbol);
-                WantedMouth wanted;
-                wanted.jaw = value_of(phone.target, speech::Parameter::kJaw);
-                wanted.gap = value_of(phone.target, speech::Parameter::kGap);
-                wanted.width = value_of(phone.target, speech::Parameter::kWidth);
-                wanted.protrusion = value_of(phone.target, speech::Parameter::kProtrusion);
-                if (phone.kind == speech::PhoneClass::kLabiodental) wanted.labiodental = 1;
-                if (phone.kind == speech::PhoneClass::kLabiodentalSoft) wanted.labiodental = 0.6;
-                wanted.bounded = phone.kind == speech::PhoneClass::kClosure ? 1 : 0;
+            for (std::size_t i = 0; i < targets.size(); ++i) {
                 Eigen::VectorXd state;
-                add({so_far.activation_for(wanted, state), so_far.jaw_open_of(wanted.jaw)});
+                const std::optional<MouthPose> pose =
+                    add({so_far.activation_for(aims[i], state), so_far.jaw_open_of(aims[i].jaw)});
+                // At the teeth it is the teeth that count.
+                if (!pose || targets[i].labiodental > 0) continue;
+                const auto correct = [](double& aim, double target, double got, double most) {
+                    aim += kCorrection * std::clamp(target - got, -most, most);
+                };
+                if (targets[i].gap > 0)
+                    correct(aims[i].gap, targets[i].gap, pose->virtual_gap, kLargestCorrection_mm);
+                correct(aims[i].width, targets[i].width, pose->mouth.width, kLargestCorrection_mm);
+                if (targets[i].protrusion > kRounded_mm)
+                    correct(aims[i].protrusion, targets[i].protrusion,
+                            (pose->mouth.upper_protrusion + pose->mouth.lower_protrusion) / 2,
+                            kLargestCorrection_mm / 2);
             }
         }
         return {std::move(poses_), std::move(jaw_travel_mm_), channels_.column_names()};
     }
 
   private:
+    static std::vector<WantedMouth> wanted_of_phones() {
+        const speech::PhoneTable table = speech::PhoneTable::standard();
+        std::vector<WantedMouth> out;
+        for (const char* symbol : kTargets) {
+            const speech::PhoneEntry phone = table.phone(symbol, symbol);
+            WantedMouth wanted;
+            wanted.jaw = value_of(phone.target, speech::Parameter::kJaw);
+            wanted.gap = value_of(phone.target, speech::Parameter::kGap);
+            wanted.width = value_of(phone.target, speech::Parameter::kWidth);
+            wanted.protrusion = value_of(phone.target, speech::Parameter::kProtrusion);
+            if (phone.kind == speech::PhoneClass::kLabiodental) wanted.labiodental = 1;
+            if (phone.kind == speech::PhoneClass::kLabiodentalSoft) wanted.labiodental = 0.6;
+            wanted.bounded = phone.kind == speech::PhoneClass::kClosure ? 1 : 0;
+            out.push_back(wanted);
+        }
+        return out;
+    }
+
     struct Asked {
         Eigen::VectorXd activation;
         double jaw_open = 0;
@@ -211,13 +237,13 @@ class Fitter {
         return (1 - s) * jaw_travel_mm_[i] + s * jaw_travel_mm_[i + 1];
     }
 
-    void add(const Asked& asked) {
+    std::optional<MouthPose> add(const Asked& asked) {
         report_(std::min(1.0, static_cast<double>(done_++) / total_));
         MouthPose pose;
         pose.activation = asked.activation;
         pose.jaw_open = asked.jaw_open;
         pose.mouth = solve(asked, 0);
-        if (!(pose.mouth.gap < kLargestGap_mm)) return;
+        if (!(pose.mouth.gap < kLargestGap_mm)) return std::nullopt;
         pose.virtual_gap = pose.mouth.gap;
         if (pose.mouth.gap < kTouching_mm && asked.activation.sum() > 0) {
             // Lower the jaw until the lips part.
@@ -235,7 +261,8 @@ class Fitter {
             }
             pose.virtual_gap = -kGapOfJaw * way;
         }
-        poses_.push_back(std::move(pose));
+        poses_.push_back(pose);
+        return pose;
     }
 
     face::Face& face_;
