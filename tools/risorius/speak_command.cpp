@@ -254,6 +254,16 @@ void add_speak(CLI::App& app) {
                      "How much the lips move, 0 to 2: 0.5 mumbled, 1.2 clear")
         ->check(CLI::Range(0.0, 2.0));
     command
+        ->add_option("--gestures", arguments->gestures,
+                     "Movements of brows and head with the stress, 0 to 2; 0: none")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 2.0));
+    command
+        ->add_option("--blinks", arguments->blinks,
+                     "Blinks, 0 to 2: 1 is 26 a minute, most of them in pauses; 0: none")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 2.0));
+    command
         ->add_option("--passes", arguments->passes,
                      "How often closures of the lips that leak are mended, 0 to 3")
         ->capture_default_str()

@@ -64,6 +64,14 @@ Drive Timeline::at(double t_s) const {
     return drive;
 }
 
+Expansion Timeline::weakened(const Expansion& drives, double t_s) const {
+    Eigen::VectorXd factor = Eigen::VectorXd::Ones(drives.excitation.size());
+    for (const auto& other : others_) other->weaken_expressions(t_s, factor);
+    Expansion out = drives;
+    out.excitation = out.excitation.cwiseProduct(factor);
+    return out;
+}
+
 Drive Timeline::together_at(double t_s) const {
     Expansion sum;
     sum.excitation = Eigen::VectorXd::Zero(column_min_.size());
@@ -73,8 +81,12 @@ Drive Timeline::together_at(double t_s) const {
     for (const EmgTrack& emg : emg_) sum.add(emg.drives, emg.excitation.at(t_s));
     for (const ExpressionEvent& event : expressions_)
         for (const ExpressionEvent::Part& part : event.parts)
-            if (const double fraction = expression_profile(event, part.delay, t_s); fraction > 0)
-                sum.add(part.drives, fraction);
+            if (const double fraction = expression_profile(event, part.delay, t_s); fraction > 0) {
+                if (others_.empty())
+                    sum.add(part.drives, fraction);
+                else
+                    sum.add(weakened(part.drives, t_s), fraction);
+            }
     for (const BlinkEvent& blink : blinks_) {
         const double end_s = blink.start_s + blink.duration_s - kBlinkReopening_s;
         if (t_s < blink.start_s || t_s >= end_s) continue;

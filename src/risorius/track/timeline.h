@@ -37,6 +37,8 @@ class Timeline {
   private:
     /// Returns the drive without the delays of the sides (ScriptDescription::late_s).
     Drive together_at(double t_s) const;
+    /// What other sources leave of an expression.
+    Expansion weakened(const Expansion& drives, double t_s) const;
     struct Source {
         Curve curve;
         Expansion drives;

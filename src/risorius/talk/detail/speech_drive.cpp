@@ -21,12 +21,46 @@ constexpr double kRestTip = 0.2;
 // Tongue tip height 1 is the channel tongue_up at this value: the tip at the ridge, not curled back.
 constexpr double kTongueUp = 0.8;
 
+// What is left of a smile while lips have to close.
+constexpr double kExpressionInBounds = 0.15;
+constexpr const char* kLipMuscles[] = {"orbicularis_oris_upper_peripheral",
+                                       "orbicularis_oris_lower_peripheral",
+                                       "orbicularis_oris_upper_marginal",
+                                       "orbicularis_oris_lower_marginal",
+                                       "incisivus_labii_superioris",
+                                       "incisivus_labii_inferioris",
+                                       "levator_labii_superioris_alaeque_nasi",
+                                       "levator_labii_superioris",
+                                       "levator_anguli_oris",
+                                       "zygomaticus_minor",
+                                       "zygomaticus_major",
+                                       "risorius",
+                                       "buccinator",
+                                       "depressor_anguli_oris",
+                                       "depressor_labii_inferioris",
+                                       "mentalis"};
+// Bounds come and go within this, s.
+constexpr int kBoundRamp = 18;  // steps of 5 ms
+
+/// One row: where a bound holds, with ramps on both sides.
+Eigen::MatrixXd ramped(const Eigen::VectorXd& bounded) {
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(1, bounded.size());
+    for (long i = 0; i < bounded.size(); ++i)
+        for (long k = std::max(0L, i - kBoundRamp);
+             k <= std::min(bounded.size() - 1, i + kBoundRamp); ++k)
+            out(0, i) = std::max(out(0, i), bounded[k] * (1 - static_cast<double>(std::abs(k - i)) /
+                                                                  (kBoundRamp + 1)));
+    return out;
+}
+
 class SpeechDrive : public track::DriveSource {
   public:
     SpeechDrive(Eigen::MatrixXd excitation, double excitation_start_s, Eigen::MatrixXd channels,
-                double channels_start_s)
+                double channels_start_s, Eigen::MatrixXd bounded, std::vector<int> mouth)
         : excitation_(std::move(excitation)),
           channels_(std::move(channels)),
+          bounded_(std::move(bounded)),
+          mouth_(std::move(mouth)),
           excitation_start_s_(excitation_start_s),
           channels_start_s_(channels_start_s) {}
 
@@ -37,6 +71,12 @@ class SpeechDrive : public track::DriveSource {
             track::Kinematic::kJawOpen, track::Kinematic::kTongueUp, track::Kinematic::kTongueOut};
         add_at(channels_, t_s - channels_start_s_, [&](long row, double value) {
             sum.kinematic[static_cast<std::size_t>(kChannels[row])] += value;
+        });
+    }
+
+    void weaken_expressions(double t_s, Eigen::VectorXd& factor) const override {
+        add_at(bounded_, t_s - excitation_start_s_, [&](long, double value) {
+            for (const int column : mouth_) factor[column] *= 1 - (1 - kExpressionInBounds) * value;
         });
     }
 
@@ -55,6 +95,8 @@ class SpeechDrive : public track::DriveSource {
     }
 
     Eigen::MatrixXd excitation_, channels_;  ///< one column for each 5 ms
+    Eigen::MatrixXd bounded_;                ///< one row: 1 in a closure or a contact
+    std::vector<int> mouth_;                 ///< columns of muscles that move the lips
     double excitation_start_s_, channels_start_s_;
 };
 
@@ -151,8 +193,17 @@ std::shared_ptr<const track::DriveSource> drive_of(const ArticulationCurves& cur
             (value(Parameter::kTipForward) - 2) / rig.facs.ranges.tongue_out_mm, 0.0, 1.0));
     }
     const double begin_s = start_s + curves.start_s;
+    std::vector<int> mouth;
+    const track::ChannelTable muscles = rig.channels();
+    for (const char* muscle : kLipMuscles)
+        if (muscles.find(muscle))
+            for (const Side side : {Side::kLeft, Side::kRight})
+                if (const int column = muscles.column(muscle, side);
+                    mouth.empty() || mouth.back() != column)
+                    mouth.push_back(column);
     return std::make_shared<SpeechDrive>(std::move(excitation), begin_s - kTissueLead_s,
-                                         std::move(channels), begin_s);
+                                         std::move(channels), begin_s, ramped(curves.bounded),
+                                         std::move(mouth));
 }
 
 }  // namespace risorius::talk
