@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "risorius/core/data_folder.h"
 #include "risorius/core/error.h"
@@ -22,6 +23,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr FileKind kVoiceTable{"the table of a voice", 100 * kMegabyte};
+// What run_program() returns when there is no such program, and what a voice does when its synthesiser is missing
+constexpr int kNoProgram = 127, kNotInstalled = 3;
 constexpr int kMinWords = 40, kMaxWords = 450;
 
 struct VoiceProgram {
@@ -34,35 +37,45 @@ struct VoiceProgram {
 /// "fi" of "fi-FI"
 std::string base_of(const std::string& language) { return language.substr(0, language.find('-')); }
 
-VoiceProgram voice_named(const std::string& name, const std::string& language) {
+/// The voices of voices.json that speak a language, or the one that is named.
+std::vector<VoiceProgram> voices_for(const std::string& name, const std::string& language) {
     const JsonCursor json = JsonCursor::read_file(data_folder() / "rigs/standard/voices.json");
     json.allow_keys({"source", "voices"});
-    std::vector<std::string> names;
+    std::vector<VoiceProgram> out;
+    std::string listed;
     for (const JsonCursor& voice : json.at("voices").items()) {
-        voice.allow_keys(
-            {"name", "program", "symbols", "stops", "needs", "words_per_minute", "replace"});
-        names.push_back(voice.at("name").string());
-        if (!name.empty() && names.back() != name) continue;
-        VoiceProgram out;
-        out.name = names.back();
-        out.program = voice.at("program").string();
-        out.needs = voice.at("needs").string();
-        out.symbols.set = voice.at("symbols").string();
-        out.stops = voice.at("stops").one_of({"burst", "closure"}) == "burst"
+        voice.allow_keys({"name", "program", "symbols", "stops", "needs", "words_per_minute",
+                          "replace", "languages"});
+        VoiceProgram one;
+        one.name = voice.at("name").string();
+        listed += " " + in_quotes(one.name);
+        if (!name.empty() && one.name != name) continue;
+        bool speaks = !voice.has("languages");
+        if (!speaks)
+            for (const JsonCursor& item : voice.at("languages").items())
+                speaks = speaks || item.string() == base_of(language);
+        if (!speaks && !name.empty())
+            throw Error(option_name("voice"), "a language of the voice " + in_quotes(name),
+                        in_quotes(language));
+        if (!speaks) continue;
+        one.program = voice.at("program").string();
+        one.needs = voice.at("needs").string();
+        one.symbols.set = voice.at("symbols").string();
+        one.stops = voice.at("stops").one_of({"burst", "closure"}) == "burst"
                         ? speech::StopMark::kBurst
                         : speech::StopMark::kClosure;
         const JsonCursor rates = voice.at("words_per_minute");
         for (const std::string& key : {std::string(), base_of(language), language})
-            if (const auto rate = rates.find(key)) out.words_per_minute = rate->number({20, 450});
+            if (const auto rate = rates.find(key)) one.words_per_minute = rate->number({20, 450});
         if (const auto replace = voice.at("replace").find(base_of(language)))
             for (const std::string& symbol : replace->keys())
-                out.symbols.replace[symbol] = replace->at(symbol).string();
-        return out;
+                one.symbols.replace[symbol] = replace->at(symbol).string();
+        out.push_back(std::move(one));
     }
-    std::string listed;
-    for (const std::string& one : names) listed += " " + in_quotes(one);
-    throw Error(option_name("program"), "a voice of rigs/standard/voices.json, one of" + listed,
-                in_quotes(name));
+    if (out.empty())
+        throw Error(option_name("program"), "a voice of rigs/standard/voices.json, one of" + listed,
+                    in_quotes(name));
+    return out;
 }
 
 /// Beside this program, where an installation has it, or in PATH.
@@ -108,26 +121,40 @@ Spoken speak(const VoiceRequest& request, const speech::PhoneTable& table) {
     if (request.text.empty() == request.phones.empty())
         throw Error(option_name("text"), "a text or phones",
                     request.text.empty() ? "none" : "both");
-    const VoiceProgram voice = voice_named(request.program, request.language);
     OutputSet folder(fs::temp_directory_path(), OutputSet::Then::kRunGoesOn);
     const fs::path request_file = folder.scratch_file("request.json"),
                    wav = folder.scratch_file("voice.wav"), tsv = folder.scratch_file("voice.tsv");
-    const int words = std::clamp(static_cast<int>(voice.words_per_minute * request.rate + 0.5),
-                                 kMinWords, kMaxWords);
-    Json json{
-        {"language", request.language}, {"words_per_minute", words}, {"pitch", request.pitch}};
-    json[request.phones.empty() ? "text" : "phones"] =
-        request.phones.empty() ? request.text : request.phones;
-    write_file(request_file, json_text(json));
-    const report::ProgramResult result = report::run_program(
-        {path_of(voice.program), request_file.string(), wav.string(), tsv.string()});
-    if (result.exit_code == 127)
+    const std::vector<VoiceProgram> voices = voices_for(request.program, request.language);
+    std::string needs;
+    const VoiceProgram* spoke = nullptr;
+    for (const VoiceProgram& voice : voices) {
+        // Mnemonics are those of a program: never those of another one.
+        if (!request.phones.empty() && voice.symbols.set != "espeak") continue;
+        const int words = std::clamp(static_cast<int>(voice.words_per_minute * request.rate + 0.5),
+                                     kMinWords, kMaxWords);
+        Json json{
+            {"language", request.language}, {"words_per_minute", words}, {"pitch", request.pitch}};
+        json[request.phones.empty() ? "text" : "phones"] =
+            request.phones.empty() ? request.text : request.phones;
+        write_file(request_file, json_text(json));
+        const report::ProgramResult result = report::run_program(
+            {path_of(voice.program), request_file.string(), wav.string(), tsv.string()});
+        if (result.exit_code == kNoProgram || result.exit_code == kNotInstalled) {
+            needs += (needs.empty() ? "" : ", or the program ") + voice.program + ", which needs " +
+                     voice.needs;
+            continue;
+        }
+        if (result.exit_code != 0)
+            throw Error(option_name("voice"), "a request that " + voice.program + " can speak",
+                        readable_text(result.output.substr(0, result.output.find('\n'))));
+        spoke = &voice;
+        break;
+    }
+    if (!spoke)
         throw Error(option_name("voice"),
-                    "the program " + voice.program + ", which needs " + voice.needs,
+                    needs.empty() ? "a voice that speaks phones" : "the program " + needs,
                     "none on this machine (label files and utterances need none)");
-    if (result.exit_code != 0)
-        throw Error(option_name("voice"), "a request that " + voice.program + " can speak",
-                    readable_text(result.output.substr(0, result.output.find('\n'))));
+    const VoiceProgram& voice = *spoke;
     // The files are gone soon, and other ones may get their numbers.
     const ReadingFormerOutput own_files;
     const media::MonoSound sound = media::read_mono_sound(wav);

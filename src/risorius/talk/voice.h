@@ -17,7 +17,7 @@ struct VoiceRequest {
     std::string text{};
     std::string phones{};  ///< mnemonics of the program, instead of a text
     std::string language = "en-us";
-    std::string program{};  ///< a name of voices.json; empty: the first one
+    std::string program{};  ///< a name of voices.json; empty: the first that speaks the language
     double rate = 1;        ///< 1: as fast as people read, [0.3, 3]
     int pitch = 50;         ///< [0, 99]
 };
@@ -28,7 +28,7 @@ struct Spoken {
     std::vector<float> sound;  ///< one channel at the utterance's rate
 };
 
-/// Throws Error for a request that the program refuses and when the program is not installed; the message names its package.
+/// Without a name of a program, voices that are not installed are passed over. Throws Error for a request that the program refuses and when the program is not installed; the message names its package.
 Spoken speak(const VoiceRequest& request, const speech::PhoneTable& table);
 
 }  // namespace risorius::talk
