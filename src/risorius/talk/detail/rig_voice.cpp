@@ -18,6 +18,7 @@ constexpr double kGapWeight = 1, kBoundWeight = 3, kWidthWeight = 0.4, kProtrusi
 // Cost of a pose by its distance from the wanted mouth: near poses mix almost linearly, far ones do not.
 constexpr double kFarCost = 0.06, kFarGap_mm = 1.5, kFarJaw_mm = 1.5, kFarWidth_mm = 3,
                  kFarProtrusion_mm = 2;
+constexpr double kTeethOverGap = 0.8;
 enum Row { kGap, kWidth, kUpper, kLower, kTeeth, kEffort, kSum, kRows };
 
 Json numbers(const Eigen::VectorXd& values) {
@@ -62,11 +63,12 @@ double RigVoice::jaw_open_of(double jaw_mm) const {
 Eigen::VectorXd RigVoice::activation_for(const WantedMouth& wanted, Eigen::VectorXd& state) const {
     const auto n = static_cast<long>(poses_.size());
     Eigen::VectorXd weight(static_cast<long>(kRows));
-    weight[kGap] = kGapWeight + kBoundWeight * wanted.bounded;
+    weight[kGap] = kGapWeight + kBoundWeight * wanted.bounded * (1 - wanted.labiodental);
     weight[kWidth] = kWidthWeight;
     weight[kUpper] = weight[kLower] = kProtrusionWeight;
     weight[kTeeth] = kTeethWeight * wanted.labiodental;
-    // A lip at the teeth is as far forward as the teeth.
+    // Where the lip is at the teeth, the gap is what the upper lip leaves free, and the lip is as far forward as the teeth.
+    weight[kGap] *= 1 - kTeethOverGap * wanted.labiodental;
     weight[kLower] *= 1 - wanted.labiodental;
     weight[kEffort] = kEffortWeight;
     weight[kSum] = kSumWeight;
