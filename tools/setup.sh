@@ -4,6 +4,7 @@
 #
 #   tools/setup.sh          what building needs
 #   tools/setup.sh test     what testing needs too
+#   tools/setup.sh speech   what building needs, and a voice that speaks texts
 #   tools/setup.sh docs     what tools/docs.sh needs, and nothing else
 #
 # RISORIUS_SKIP_SETUP=1 leaves the machine as it is, for systems whose packages have other names.
@@ -19,8 +20,8 @@ die() {
 }
 
 case $purpose in
-    build | test | docs) ;;
-    *) die "expected build, test or docs, found \"$purpose\"" ;;
+    build | test | speech | docs) ;;
+    *) die "expected build, test, speech or docs, found \"$purpose\"" ;;
 esac
 if [[ ${RISORIUS_SKIP_SETUP:-0} == 1 ]]; then exit 0; fi
 

@@ -25,6 +25,9 @@
 #include "risorius/media/picture_file.h"
 #include "risorius/rig/rig_description.h"
 #include "risorius/signal/recording.h"
+#include "risorius/speech/labels.h"
+#include "risorius/speech/phone_table.h"
+#include "risorius/speech/utterance.h"
 #include "risorius/track/script.h"
 #include "temporary_folder.h"
 #include "track/standard_tables.h"
@@ -188,6 +191,37 @@ void read_sound(const std::uint8_t* data, std::size_t size, Digest& digest) {
     digest.add(media::part_of(recording, -10, 1000).samples);
 }
 
+const speech::PhoneTable& phones() {
+    static const speech::PhoneTable table =
+        speech::PhoneTable::read_folder(fs::path(RISORIUS_SOURCE_DIR) / "rigs/standard");
+    return table;
+}
+
+void read_labels_as(const std::string& format, const std::uint8_t* data, std::size_t size,
+                    Digest& digest) {
+    const speech::LabelFile labels =
+        speech::parse_labels(text_of(data, size), format, "input", 48000);
+    digest.add(speech::utterance_text(
+        speech::utterance_of_labels(labels, {}, phones(), 48000, {}, "input")));
+}
+
+void read_textgrid(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    read_labels_as("textgrid", data, size, digest);
+}
+
+/// As all other formats, one after another.
+void read_labels(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    for (const std::string& format : speech::label_formats()) try {
+            if (format != "textgrid") read_labels_as(format, data, size, digest);
+        } catch (const Error&) {
+        }
+}
+
+void read_utterance(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    digest.add(speech::utterance_text(
+        speech::read_utterance(parse_json_text(text_of(data, size), "input.json"), phones())));
+}
+
 void read_picture(const std::uint8_t* data, std::size_t size, Digest& digest) {
     digest.add(media::read_picture({data, data + size}, "input.png").rgba);
 }
@@ -248,15 +282,17 @@ void Digest::add(const void* bytes, std::size_t size) {
 
 const std::vector<Target>& targets() {
     static const std::vector<Target> list{
-        {"json", read_json},         {"script", read_script},
-        {"design", read_design},     {"arithmetic", read_arithmetic},
-        {"table", read_table},       {"recording", read_recording},
-        {"obj", read_mesh<kObj>},    {"mtl", read_materials},
-        {"glb", read_mesh<kGlb>},    {"gltf", read_mesh<kGltf>},
-        {"shapes", read_shapes},     {"mesh_message", read_message},
-        {"hdr", read_light},         {"picture", read_picture},
-        {"sound", read_sound},       {"landmarks", read_landmarks},
-        {"identity", read_identity}, {"shapes_table", read_shapes_table}};
+        {"json", read_json},          {"script", read_script},
+        {"design", read_design},      {"arithmetic", read_arithmetic},
+        {"table", read_table},        {"recording", read_recording},
+        {"obj", read_mesh<kObj>},     {"mtl", read_materials},
+        {"glb", read_mesh<kGlb>},     {"gltf", read_mesh<kGltf>},
+        {"shapes", read_shapes},      {"mesh_message", read_message},
+        {"hdr", read_light},          {"picture", read_picture},
+        {"sound", read_sound},        {"landmarks", read_landmarks},
+        {"identity", read_identity},  {"shapes_table", read_shapes_table},
+        {"textgrid", read_textgrid},  {"labels", read_labels},
+        {"utterance", read_utterance}};
     return list;
 }
 

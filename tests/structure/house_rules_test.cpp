@@ -18,6 +18,8 @@ const Names kSources = {".h", ".cpp"};
 const Names kText = {".h",     ".cpp",  ".txt", ".sh",   ".json", ".md",
                      ".cmake", ".glsl", ".js",  ".html", ".tsv",  ".csv"};
 
+constexpr const char* kEspeakFolder = "tools/voices/espeak";
+
 /// Runs a command and catches standard error too.
 ShellResult run(const std::string& command) { return run_shell(command + " 2>&1"); }
 
@@ -99,8 +101,30 @@ TEST(HouseRules, EverySourceNamesItsLicenceAndSaysWhatItIsFor) {
     }
     for (const char* folder : {"tools", "tests", "samples"})
         for (const auto& file : files_below(folder, kSources))
-            EXPECT_TRUE(text_of(file).starts_with(licence))
+            EXPECT_TRUE(
+                text_of(file).starts_with(shown(file).starts_with(kEspeakFolder)
+                                              ? "// SPDX-License-Identifier: GPL-3.0-or-later\n"
+                                              : licence))
                 << shown(file) << " does not name its licence";
+}
+
+// What links libespeak-ng is under the GPL: one program, in a folder of its own with the text of the licence.
+TEST(HouseRules, OnlyTheVoiceByEspeakUsesEspeak) {
+    const std::regex uses(R"(#\s*include\s*[<"]espeak|PkgConfig::ESPEAK|\bespeak_[A-Z])");
+    int files = 0;
+    for (const char* folder : {"src", "tools", "tests", "samples"})
+        for (const auto& file : files_below(folder, {".h", ".cpp", ".txt", ".cmake"})) {
+            if (shown(file) == "tests/structure/house_rules_test.cpp") continue;
+            const bool found = std::regex_search(text_of(file), uses);
+            EXPECT_TRUE(!found || shown(file).starts_with(kEspeakFolder))
+                << shown(file) << " uses espeak-ng, which only " << kEspeakFolder << " may";
+            files += found;
+        }
+    EXPECT_EQ(files, 2);  // its source and its CMakeLists.txt
+    EXPECT_NE(text_of(source_dir() / kEspeakFolder / "LICENSE").find("GNU GENERAL PUBLIC LICENSE"),
+              std::string::npos);
+    const std::string link = text_of(source_dir() / "src/CMakeLists.txt");
+    EXPECT_EQ(link.find("espeak"), std::string::npos);
 }
 
 TEST(HouseRules, EveryTestFileExpectsSomething) {

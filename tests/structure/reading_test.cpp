@@ -42,6 +42,7 @@ TEST(Reading, OnlyCoreOpensFilesToRead) {
          {"src/risorius/core/detail/", "opens what this program has written itself"},
          {"src/risorius/io/detail/import_process.cpp", "gives /dev/null to a program"},
          {"tools/import_mesh/", "reads under limits of the operating system"},
+         {"tools/voices/", "programs that do not use the library, under other licences"},
          {"src/risorius/plot/detail/run_gnuplot.cpp", "gives /dev/null to a program"}},
         "read_file(), read_text() or FileReader of core has the limits and sees read errors");
 }
@@ -49,6 +50,7 @@ TEST(Reading, OnlyCoreOpensFilesToRead) {
 TEST(Reading, OnlyCoreParsesJson) {
     expect_none(R"(\b[Jj]son::(parse|from_\w+|accept)\()",
                 {{"src/risorius/core/json_cursor.cpp", "parses all JSON"},
+                 {"tools/voices/", "programs that do not use the library"},
                  {"tools/bench/", "scripts that the program makes itself"}},
                 "parse_json_text() or json_or_null() of core limits the depth");
 }

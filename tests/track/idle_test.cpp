@@ -121,8 +121,8 @@ TEST(Idle, MistakesAreNamed) {
     EXPECT_EQ(idle_error(R"([{"idle": {}, "end_s": 3, "duration_s": 3}])"),
               "script.json:/events/0: expected either \"end_s\" or \"duration_s\", found both");
     EXPECT_EQ(idle_error(R"([{"idle": {}, "blink": {}, "start_s": 1}])"),
-              "script.json:/events/0: expected an event with one of \"expression\", \"blink\" and "
-              "\"idle\", found two");
+              "script.json:/events/0: expected an event with one of \"expression\", \"blink\", "
+              "\"idle\" and \"say\", found two");
     EXPECT_EQ(idle_error(R"([{"idle": {"sway": -1}}])"),
               "script.json:/events/0/idle/sway: expected [0, 5], found -1");
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "paths.h"
@@ -47,6 +48,37 @@ double asked(const std::string& unit, const std::string& column, double intensit
     const ActionUnit& found = *tables().facs.find(unit);
     return found.curve.activation(intensity) *
            expand(found, std::nullopt, tables().channels).excitation[tables().column(column)];
+}
+
+/// Asks for half of zygomaticus, and leaves a third of expressions.
+class OtherSource : public DriveSource {
+  public:
+    void add(double t_s, Expansion& sum) const override {
+        if (t_s < 1) sum.excitation[tables().column("zygomaticus_major.l")] += 0.5;
+    }
+    void weaken_expressions(double t_s, Eigen::VectorXd& factor) const override {
+        if (t_s < 1) factor *= 1.0 / 3;
+    }
+};
+
+TEST(Timeline, OtherSourcesAreAddedAndWeakenExpressions) {
+    ScriptDescription script =
+        script_of(R"({"zygomaticus_major": {"keys": [[0, 0.1]]}})",
+                  R"([{"expression": "happiness", "start_s": 0, "onset_s": 0, "hold_s": 4}])");
+    const Drive without = Timeline(script, tables().channels).at(0.5);
+    script.sources.push_back(std::make_shared<OtherSource>());
+    const Timeline face(script, tables().channels);
+    const double smile = excitation(without, "zygomaticus_major.r") - 0.1;
+    EXPECT_NEAR(excitation(face.at(0.5), "zygomaticus_major.r"), 0.1 + smile / 3, 1e-12);
+    EXPECT_NEAR(excitation(face.at(0.5), "zygomaticus_major.l"),
+                std::min(1.0, 0.1 + smile / 3 + 0.5), 1e-12);
+    EXPECT_EQ(excitation(face.at(1.5), "zygomaticus_major.l"),
+              excitation(Timeline(script_of(R"({"zygomaticus_major": {"keys": [[0, 0.1]]}})",
+                                            R"([{"expression": "happiness", "start_s": 0,
+                                                 "onset_s": 0, "hold_s": 4}])"),
+                                  tables().channels)
+                             .at(1.5),
+                         "zygomaticus_major.l"));
 }
 
 TEST(Timeline, SourcesAddUpAndAreClamped) {

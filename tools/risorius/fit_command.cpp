@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// risorius fit MESH --landmarks FILE -o RIG
+// risorius fit MESH --landmarks FILE -o RIG; risorius fit --voice RIG
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
 #include "risorius/fitting/fit_rig.h"
 #include "risorius/rig/head.h"
+#include "risorius/scene/rig_files.h"
+#include "risorius/talk/rig_voice_file.h"
 #include "tools/risorius/commands.h"
 
 namespace risorius::cli {
@@ -21,6 +24,7 @@ struct FitArguments {
     std::vector<std::string> parts;
     std::string tables = "inline";
     bool no_calibrate = false, muscles_apart = false;
+    std::filesystem::path voice;
 };
 
 // Reads a part such as "skin=face,neck".
@@ -90,7 +94,30 @@ void print(const fitting::FitReport& report) {
     for (const std::string& note : report.notes) std::printf("  note: %s\n", note.c_str());
 }
 
+void require(bool given, const char* what) {
+    if (!given) throw CLI::RequiredError(what);
+}
+
+void run_voice(const FitArguments& arguments) {
+    const scene::RigFiles files = scene::read_rig_files(arguments.voice);
+    std::filesystem::path file;
+    {
+        ProgressBar bar(arguments.common);
+        file = talk::write_voice_of_rig(
+            files, [&](double fraction) { bar.monitor().report(fraction, "simulating mouths"); });
+    }
+    if (!arguments.common.quiet) std::printf("%s\n", file.string().c_str());
+}
+
 void run(FitArguments& arguments) {
+    if (!arguments.voice.empty()) {
+        if (!arguments.options.mesh.empty() || !arguments.options.out.empty())
+            throw Error("--voice", "no MESH and no --out beside it", "one");
+        return run_voice(arguments);
+    }
+    require(!arguments.options.mesh.empty(), "MESH");
+    require(!arguments.options.landmarks.empty(), "--landmarks");
+    require(!arguments.options.out.empty(), "--out");
     for (const std::string& part : arguments.parts) add_part(part, arguments.options.parts);
     if (arguments.tables != "inline" && arguments.tables != "reference")
         throw Error("--tables", "\"inline\" or \"reference\"", "\"" + arguments.tables + "\"");
@@ -114,10 +141,14 @@ void add_fit(CLI::App& app) {
     CLI::App* command = app.add_subcommand("fit", "Fit a muscle rig to a face mesh with landmarks");
     auto arguments = std::make_shared<FitArguments>();
     fitting::FitOptions& options = arguments->options;
-    command->add_option("MESH", options.mesh, "The mesh of the face: OBJ, PLY, glTF, FBX, ...")
-        ->required();
-    command->add_option("--landmarks", options.landmarks, "The file of its landmarks")->required();
-    command->add_option("-o,--out", options.out, "The rig to write")->required();
+    // Required unless there is --voice, see require().
+    command->add_option("MESH", options.mesh, "The mesh of the face: OBJ, PLY, glTF, FBX, ...");
+    command->add_option("--landmarks", options.landmarks, "The file of its landmarks");
+    command->add_option("-o,--out", options.out, "The rig to write");
+    command->add_option(
+        "--voice", arguments->voice,
+        "A rig, instead of all other options: simulate the mouths that speech needs, "
+        "for some minutes, and write them beside it as RIG.voice.json");
     command->add_option("--metres-per-unit", options.metres_per_unit,
                         "Size of one unit of the mesh in metres, 0.01 for cm. Default: estimated "
                         "from the landmarks");
@@ -153,7 +184,8 @@ void add_fit(CLI::App& app) {
     command->footer(
         "Landmarks that have to be given (rigs/standard/landmarks.json says where they lie):\n " +
         required +
-        "\n\nExample:\n  risorius fit head.obj --landmarks landmarks.json -o anna/rig.json");
+        "\n\nExample:\n  risorius fit head.obj --landmarks landmarks.json -o anna/rig.json\n"
+        "  risorius fit --voice anna/rig.json");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -18,6 +18,7 @@
 #include "risorius/report/output_paths.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/rig/rig_description.h"
+#include "risorius/talk/say_event.h"
 
 namespace risorius::animate {
 
@@ -245,6 +246,14 @@ void plan_times(const RenderRequest& request, RenderJob& job) {
     job.still = true;
 }
 
+/// The sound of what is said, unless the request has another.
+void add_spoken_sound(const RenderRequest& request, RenderJob& job) {
+    if (request.audio || job.still || job.speech.sound_file.empty()) return;
+    job.video.sound =
+        std::make_shared<media::Recording>(media::open_recording(job.speech.sound_file));
+    job.video.sound_offset_samples = job.speech.sound_offset_samples;
+}
+
 /// The script as read, from memory or from its file.
 ScriptInput script_input(const RenderRequest& request, RenderInputs& inputs) {
     if (request.script_in_memory)
@@ -265,9 +274,17 @@ void plan_rig_and_script(const RenderRequest& request, const JsonCursor& script,
         for (const fs::path& recording : job.script.recordings)
             job.recordings.push_back(sums.of(recording));
     }
-    if (request.against)
+    job.speech = talk::plan_speech(job.script.says, job.script.header, job.rig->files);
+    talk::add_to_script(job.speech, job.script);
+    for (const fs::path& file : job.speech.files)
+        job.recordings.push_back({file, media::sha256_of_file(file)});
+    if (request.against) {
         job.reference = track::read_script(inputs.script(*request.against)->json, channels,
                                            rig.facs, rig.expressions);
+        talk::add_to_script(
+            talk::plan_speech(job.reference->says, job.reference->header, job.rig->files),
+            *job.reference);
+    }
     if (request.shapes) job.shapes = {*request.shapes, media::sha256_of_file(*request.shapes)};
 }
 
@@ -303,6 +320,7 @@ RenderJob plan_render_job(const RenderRequest& request, RenderInputs& inputs) {
     plan_times(request, job);
 
     plan_rig_and_script(request, script.json, inputs, job);
+    add_spoken_sound(request, job);
     job.scale = request.scale;
     job.marks = request.marks;
     job.flipped_motion = request.flipped_motion;

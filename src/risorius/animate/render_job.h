@@ -12,6 +12,7 @@
 #include "risorius/animate/render_request.h"
 #include "risorius/media/video_writer.h"
 #include "risorius/render/offscreen_view.h"
+#include "risorius/talk/say_event.h"
 #include "risorius/track/script.h"
 
 namespace risorius::animate {
@@ -25,6 +26,7 @@ struct RenderJob {
     std::shared_ptr<const RigInput> rig;
     std::vector<InputFile> recordings;  ///< recordings that the script names
     std::optional<InputFile> shapes;    ///< blend shapes that play the script
+    talk::PlannedSpeech speech;         ///< what the events "say" of the script make
     /// The script to compare with when "error" is shown
     std::optional<track::ScriptDescription> reference;
 

@@ -26,6 +26,7 @@
 #include "risorius/scene/scene_from_rig.h"
 #include "risorius/scene/script_drives.h"
 #include "risorius/scene/visualization.h"
+#include "risorius/talk/speech_columns.h"
 #include "risorius/track/simulated_emg.h"
 #include "risorius/track/timeline.h"
 
@@ -200,6 +201,13 @@ class JobRun {
         columns.masks =
             std::find(job_.passes.begin(), job_.passes.end(), "masks") != job_.passes.end();
         columns.photodiode = job_.marks.photodiode.has_value();
+        if (!job_.speech.utterances.empty()) {
+            speech_.emplace(job_.speech.utterances, face_.head(), job_.rig->files.rig);
+            columns.speech_names = talk::SpeechColumns::names();
+            columns.speech = [this](double t_s, const face::FacePose& pose) {
+                return speech_->cells(t_s, pose);
+            };
+        }
         if (job_.emg) columns.emg = [this](double t_s) { return emg_.at(t_s); };
         return columns;
     }
@@ -312,6 +320,7 @@ class JobRun {
     const scene::Visualization visualization_;
     std::optional<ReferenceRun> reference_;
     track::SimulatedEmg emg_;
+    std::optional<talk::SpeechColumns> speech_;
     FrameTable table_;
     MarkedPictures pictures_;
     media::Sha256 hash_;

@@ -456,17 +456,21 @@ ScriptDescription read_script(const JsonCursor& json, const ChannelTable& channe
     if (const auto events = json.find("events")) {
         std::vector<JsonCursor> idle;
         for (const JsonCursor& event : events->items()) {
-            const int kinds = event.has("expression") + event.has("blink") + event.has("idle");
+            const int kinds =
+                event.has("expression") + event.has("blink") + event.has("idle") + event.has("say");
             if (kinds != 1)
-                event.fail("an event with one of \"expression\", \"blink\" and \"idle\"",
+                event.fail("an event with one of \"expression\", \"blink\", \"idle\" and \"say\"",
                            kinds == 0   ? "none"
                            : kinds == 2 ? "two"
-                                        : "three");
+                           : kinds == 3 ? "three"
+                                        : "four");
             if (event.has("expression"))
                 script.expressions.push_back(reader.expression(
                     event, script.header, static_cast<int>(script.expressions.size())));
             else if (event.has("blink"))
                 script.blinks.push_back(reader.blink(event, script.header.duration_s));
+            else if (event.has("say"))
+                script.says.push_back(event);
             else
                 idle.push_back(event);
         }

@@ -6,13 +6,16 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "risorius/core/json_cursor.h"
 #include "risorius/track/channels.h"
 #include "risorius/track/detail/curve.h"
 #include "risorius/track/detail/idle.h"
+#include "risorius/track/drive_source.h"
 #include "risorius/track/facs.h"
 #include "risorius/track/motion.h"
 
@@ -120,6 +123,9 @@ struct ScriptDescription {
     std::vector<IdleEvent> idle;
     /// One value per column: the fraction of a muscle's strength that is missing, [0, 1]. Empty: no muscle is weak.
     Eigen::VectorXd weakness;
+    /// Events "say" as written; module talk makes sources of them.
+    std::vector<JsonCursor> says;
+    std::vector<std::shared_ptr<const DriveSource>> sources;
     std::array<double, 2> late_s{0, 0};  ///< delay of all muscles of a side, [0, 10]
     /// Files that were read besides the script itself.
     std::vector<std::filesystem::path> recordings;

@@ -22,6 +22,7 @@ Timeline::Timeline(const ScriptDescription& script, const ChannelTable& channels
     : emg_(script.emg),
       expressions_(script.expressions),
       blinks_(script.blinks),
+      others_(script.sources),
       column_min_(channels.column_min()),
       late_s_(script.late_s) {
     if (script.weakness.size() > 0) strength_ = 1 - script.weakness.array();
@@ -63,6 +64,14 @@ Drive Timeline::at(double t_s) const {
     return drive;
 }
 
+Expansion Timeline::weakened(const Expansion& drives, double t_s) const {
+    Eigen::VectorXd factor = Eigen::VectorXd::Ones(drives.excitation.size());
+    for (const auto& other : others_) other->weaken_expressions(t_s, factor);
+    Expansion out = drives;
+    out.excitation = out.excitation.cwiseProduct(factor);
+    return out;
+}
+
 Drive Timeline::together_at(double t_s) const {
     Expansion sum;
     sum.excitation = Eigen::VectorXd::Zero(column_min_.size());
@@ -73,8 +82,13 @@ Drive Timeline::together_at(double t_s) const {
     for (const EmgTrack& emg : emg_) sum.add(emg.drives, emg.excitation.at(t_s));
     for (const ExpressionEvent& event : expressions_)
         for (const ExpressionEvent::Part& part : event.parts)
-            if (const double fraction = expression_profile(event, part.delay, t_s); fraction > 0)
-                sum.add(part.drives, part.curve, fraction * part.intensity);
+            if (const double fraction = expression_profile(event, part.delay, t_s); fraction > 0) {
+                const double intensity = fraction * part.intensity;
+                if (others_.empty())
+                    sum.add(part.drives, part.curve, intensity);
+                else
+                    sum.add(weakened(part.drives, t_s), part.curve, intensity);
+            }
     for (const BlinkEvent& blink : blinks_) {
         const double end_s = blink.start_s + blink.duration_s - kBlinkReopening_s;
         if (t_s < blink.start_s || t_s >= end_s) continue;
@@ -88,6 +102,8 @@ Drive Timeline::together_at(double t_s) const {
         const KinematicValues values = idle.at(t_s);
         for (std::size_t k = 0; k < values.size(); ++k) sum.kinematic[k] += values[k];
     }
+
+    for (const auto& other : others_) other->add(t_s, sum);
 
     // Limits to what a face can do.
     Drive drive;

@@ -37,6 +37,8 @@ class Timeline {
   private:
     /// Returns the drive without the delays of the sides (ScriptDescription::late_s).
     Drive together_at(double t_s) const;
+    /// What other sources leave of an expression.
+    Expansion weakened(const Expansion& drives, double t_s) const;
     struct Source {
         Curve curve;
         Expansion drives;
@@ -53,6 +55,7 @@ class Timeline {
     std::vector<ExpressionEvent> expressions_;
     std::vector<BlinkEvent> blinks_;
     std::vector<IdleMotion> idle_;
+    std::vector<std::shared_ptr<const DriveSource>> others_;
     Eigen::VectorXd column_min_;
     Eigen::VectorXd strength_;  ///< per column; empty: all muscles have full strength
     std::array<double, 2> late_s_;

@@ -39,6 +39,7 @@ FrameTable::FrameTable(const track::ChannelTable& channels, const scene::Landmar
     if (options_.landmarks)
         for (const std::string& id : points_.ids())
             for (const char* part : kLandmarkParts) head_ += "\t" + id + "." + part;
+    if (options_.speech) head_ += options_.speech_names;
     head_ += "\tluminance_mean\tluminance_sd\tcontrast_rms\tmotion_energy";
     if (options_.masks) head_ += "\tluminance_face\tluminance_eyes\tluminance_mouth";
     if (options_.photodiode) head_ += "\tphotodiode";
@@ -74,6 +75,7 @@ void FrameTable::add(int frame, double time_s, const track::Drive& drive,
             for (int k = 0; k < 3; ++k) row += cell(1e3 * world[k], 4);
             for (int k = 0; k < 2; ++k) row += cell(pixel[k], 3);
         }
+    if (options_.speech) row += options_.speech(time_s, pose);
     rows_.push_back(std::move(row));
 }
 

@@ -15,6 +15,7 @@
 ///   lid_aperture_l_mm, lid_aperture_r_mm        ps - pi
 ///   eye_yaw_deg.l .r, eye_pitch_deg.l .r        direction of gaze in the world, with the turn of the head: left and up > 0
 ///   <landmark>.x_mm .y_mm .z_mm .u_px .v_px     with landmarks: world, and in the picture from its top left corner
+///   phone, word, viseme, lip_gap_mm, ...        with speech: talk/speech_columns.h
 ///   luminance_mean, luminance_sd, contrast_rms, motion_energy       of the picture without its marks; media/luminance.h
 ///   luminance_face .eyes .mouth                 with masks: mean luminance within each mask; empty when it is not visible
 ///   photodiode        1 where its square is white, with a photodiode
@@ -39,6 +40,9 @@ struct FrameTableOptions {
     std::function<Vec2(const Vec3& world)> project;
     std::function<Eigen::VectorXd(double time_s)> emg;  ///< for each column; empty: no such columns
     std::array<Vec3, 2> eye_forward{Vec3::UnitZ(), Vec3::UnitZ()};  ///< direction of gaze at rest
+    std::string speech_names{};  ///< with speech: its columns, each after a tab
+    /// With speech: their cells
+    std::function<std::string(double time_s, const face::FacePose& pose)> speech{};
     bool masks = false;  ///< adds mean luminance within each mask
     bool photodiode = false;
 };

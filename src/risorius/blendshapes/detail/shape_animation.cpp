@@ -6,6 +6,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/scene/script_drives.h"
+#include "risorius/talk/say_event.h"
 #include "risorius/track/arkit_names.h"
 #include "risorius/track/script.h"
 
@@ -31,8 +32,9 @@ std::string timecode(long frame, int fps) {
 
 ShapeAnimation bake_script(const std::filesystem::path& script_file, const scene::RigFiles& files,
                            const std::vector<ShapeGoal>& goals, const ShapeWeights& weights) {
-    const track::ScriptDescription script = track::read_script(
-        script_file, files.rig.channels(), files.rig.facs, files.rig.expressions);
+    track::ScriptDescription script = track::read_script(script_file, files.rig.channels(),
+                                                         files.rig.facs, files.rig.expressions);
+    talk::add_to_script(talk::plan_speech(script.says, script.header, files), script);
     scene::ScriptDrives drives(script, files.rig);
     ShapeAnimation out;
     out.name = script_file.stem().string();

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/talk/detail/check_speech.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace risorius::talk {
+
+namespace {
+
+using speech::ClosureChange;
+using speech::LipClosure;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kHeldFrom_s = 0.010, kHeldTo_s = 0.005;
+constexpr double kOpenGap_mm = 0.5;
+// How far around a closure its contact and its opening are looked for
+constexpr double kBefore_s = 0.15, kAfter_s = 0.2;
+// Lateness that is left as it is, and the most that one pass changes
+constexpr double kLate_s = 0.010, kMaxEarlier_s = 0.03, kOpensLate_s = 0.017;
+constexpr double kDeeper = 2, kDeeperAtLeast_mm = 0.6, kDeepest_mm = 6;
+constexpr double kStuck_s = 0.05, kLessDeep = 0.6;
+constexpr double kEarliest_s = 0.06, kShortest_s = 0.03;
+
+std::string cell(double value, int decimals) {
+    if (std::isnan(value)) return "\t";
+    char text[48];
+    std::snprintf(text, sizeof text, "\t%.*f", decimals, value + 0.0);
+    return text;
+}
+
+}  // namespace
+
+double MouthTrack::at(double t_s, double Mouth::*measure) const {
+    if (mouths.empty()) return 0;
+    const double place = std::clamp((t_s - time_s.front()) / kMouthStep_s, 0.0,
+                                    static_cast<double>(mouths.size() - 1));
+    const auto i = std::min(static_cast<std::size_t>(place),
+                            mouths.size() > 1 ? mouths.size() - 2 : std::size_t{0});
+    if (mouths.size() == 1) return mouths[0].*measure;
+    const double s = place - static_cast<double>(i);
+    return (1 - s) * (mouths[i].*measure) + s * (mouths[i + 1].*measure);
+}
+
+MouthTrack simulate_mouth(face::Face& face, const track::Timeline& timeline, double duration_s,
+                          const MouthMeasures& measures,
+                          const std::function<void(double fraction)>& report) {
+    const face::DriveAt drive = [&](double t_s) { return timeline.at(t_s); };
+    face.start(drive);
+    MouthTrack out;
+    const long count = static_cast<long>(std::floor(duration_s / kMouthStep_s)) + 1;
+    for (long i = 0; i < count; ++i) {
+        const double t_s = static_cast<double>(i) * kMouthStep_s;
+        out.time_s.push_back(t_s);
+        out.mouths.push_back(measures.at(face.pose_at(t_s, drive)));
+        if (report) report(static_cast<double>(i) / static_cast<double>(count));
+    }
+    return out;
+}
+
+std::vector<ClosureCheck> check_closures(const MouthTrack& track, const PlacedUtterance& placed) {
+    std::vector<ClosureCheck> out;
+    for (const LipClosure& closure : placed.targets.closures) {
+        ClosureCheck check;
+        check.phone = closure.first_phone;
+        check.closure_s = placed.start_s + closure.closure_s;
+        check.release_s = placed.start_s + closure.release_s;
+        check.least_gap_mm = std::numeric_limits<double>::infinity();
+        for (double t = check.closure_s; t <= check.release_s; t += kMouthStep_s / 2) {
+            const double gap = track.at(t, &Mouth::gap);
+            check.least_gap_mm = std::min(check.least_gap_mm, gap);
+            if (t >= check.closure_s + kHeldFrom_s && t <= check.release_s - kHeldTo_s)
+                check.max_gap_mm = std::max(check.max_gap_mm, gap);
+        }
+        // The contact that is there in the middle of the closure, back to where it began and on to its end
+        const double middle_s = (check.closure_s + check.release_s) / 2;
+        check.contact_s = check.open_s = kNone;
+        if (check.reached()) {
+            double t = middle_s;
+            while (t > check.closure_s - kBefore_s && track.at(t, &Mouth::gap) < kContactGap_mm)
+                t -= 0.001;
+            while (t < check.release_s && track.at(t, &Mouth::gap) >= kContactGap_mm) t += 0.001;
+            check.contact_s = t;
+            t = std::max(middle_s, t);
+            while (t < check.release_s + kAfter_s && track.at(t, &Mouth::gap) <= kOpenGap_mm)
+                t += 0.001;
+            if (t < check.release_s + kAfter_s) check.open_s = t;
+        }
+        out.push_back(check);
+    }
+    return out;
+}
+
+std::vector<ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
+                                       std::vector<ClosureChange> before) {
+    for (const ClosureCheck& check : checks) {
+        ClosureChange change;
+        change.phone = check.phone;
+        if (!check.held()) {
+            change.deeper_mm = kDeeper * check.max_gap_mm + kDeeperAtLeast_mm;
+            const double late_s = std::isnan(check.contact_s)
+                                      ? kMaxEarlier_s / 2
+                                      : check.contact_s - check.closure_s - kLate_s / 2;
+            change.earlier_s = std::clamp(late_s, 0.0, kMaxEarlier_s);
+        } else if (check.contact_s > check.closure_s + kLate_s) {
+            change.earlier_s =
+                std::min(check.contact_s - check.closure_s - kLate_s / 2, kMaxEarlier_s);
+        }
+        if (!std::isnan(check.open_s) && check.held() &&
+            check.open_s > check.release_s + kOpensLate_s)
+            change.shorter_s =
+                std::min(check.open_s - check.release_s - kOpensLate_s / 2, kMaxEarlier_s / 2);
+        const bool stuck = check.held() && !(check.open_s < check.release_s + kStuck_s);
+        if (change.deeper_mm == 0 && change.earlier_s == 0 && change.shorter_s == 0 && !stuck)
+            continue;
+        const auto known = std::find_if(before.begin(), before.end(), [&](const ClosureChange& c) {
+            return c.phone == change.phone;
+        });
+        ClosureChange& to =
+            known != before.end() ? *known : before.emplace_back(ClosureChange{change.phone});
+        to.deeper_mm = std::min(kDeepest_mm, to.deeper_mm + change.deeper_mm);
+        to.earlier_s = std::min(kEarliest_s, to.earlier_s + change.earlier_s);
+        to.shorter_s = std::min(kShortest_s, to.shorter_s + change.shorter_s);
+        // Lips that are pressed too hard do not part in time.
+        if (stuck) to.deeper_mm *= kLessDeep;
+    }
+    return before;
+}
+
+std::string speech_table(const MouthTrack& track, const std::vector<PlacedUtterance>& utterances,
+                         const speech::PhoneTable& table) {
+    std::string out =
+        "start_s\tend_s\tsymbol\tword\tstress\tstart_sample\tend_sample\tclosure_s\trelease_s\t"
+        "contact_s\topen_s\tmax_gap_mm\tleast_gap_mm\ttarget_gap_mm\twidth_mm\ttarget_width_mm\t"
+        "upper_protrusion_mm\tlower_protrusion_mm\ttarget_protrusion_mm\tteeth_mm\t"
+        "peak_closing_mm_s\tpeak_opening_mm_s\tbound\n";
+    for (const PlacedUtterance& placed : utterances) {
+        const std::vector<ClosureCheck> checks = check_closures(track, placed);
+        const speech::Utterance& u = placed.utterance;
+        for (std::size_t i = 0; i < u.phones.size(); ++i) {
+            const speech::Phone& phone = u.phones[i];
+            if (phone.is_pause()) continue;
+            const double from_s = placed.start_s + u.seconds(phone.start),
+                         to_s = placed.start_s + u.seconds(phone.end),
+                         middle_s = (from_s + to_s) / 2;
+            const auto check = std::find_if(checks.begin(), checks.end(), [&](const auto& c) {
+                return c.phone == static_cast<int>(i);
+            });
+            double max_gap = 0, least = 1e9, closing = 0, opening = 0;
+            for (double t = from_s; t <= to_s; t += kMouthStep_s) {
+                const double gap = track.at(t, &Mouth::gap);
+                const double speed = (track.at(t + kMouthStep_s, &Mouth::gap) - gap) / kMouthStep_s;
+                max_gap = std::max(max_gap, gap);
+                least = std::min(least, gap);
+                closing = std::max(closing, -speed);
+                opening = std::max(opening, speed);
+            }
+            const int word = u.word_at((phone.start + phone.end) / 2);
+            const speech::Articulation target = table.phone(phone.symbol, "phone").target;
+            char begin[80];
+            std::snprintf(begin, sizeof begin, "%.6f\t%.6f\t", from_s, to_s);
+            out += begin + phone.text() + "\t" +
+                   (word < 0 ? "" : u.words[static_cast<std::size_t>(word)].text) + "\t" +
+                   std::to_string(phone.stress) + "\t" + std::to_string(phone.start) + "\t" +
+                   std::to_string(phone.end);
+            const auto moment = [&](const std::optional<std::int64_t>& sample) {
+                return sample ? placed.start_s + u.seconds(*sample) : kNone;
+            };
+            out += cell(moment(phone.closure), 6) + cell(moment(phone.release), 6);
+            const bool known = check != checks.end();
+            out +=
+                cell(known ? check->contact_s : kNone, 3) + cell(known ? check->open_s : kNone, 3);
+            out += cell(max_gap, 3) + cell(least, 3);
+            out += cell(value_of(target, speech::Parameter::kGap), 2);
+            out += cell(track.at(middle_s, &Mouth::width), 3) +
+                   cell(value_of(target, speech::Parameter::kWidth), 2);
+            out += cell(track.at(middle_s, &Mouth::upper_protrusion), 3) +
+                   cell(track.at(middle_s, &Mouth::lower_protrusion), 3) +
+                   cell(value_of(target, speech::Parameter::kProtrusion), 2);
+            out += cell(track.at(middle_s, &Mouth::teeth), 3) + cell(closing, 1) + cell(opening, 1);
+            out += "\t" +
+                   std::string(!known             ? ""
+                               : check->held()    ? "held"
+                               : check->reached() ? "reached"
+                                                  : "open") +
+                   "\n";
+        }
+    }
+    return out;
+}
+
+}  // namespace risorius::talk

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// Whether a simulated face does what speech asks of it: simulates a script without pictures, measures the mouth, and tests every
+/// closure of the lips.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "risorius/face/face.h"
+#include "risorius/talk/detail/mouth_measures.h"
+#include "risorius/talk/say_event.h"
+#include "risorius/track/timeline.h"
+
+namespace risorius::talk {
+
+/// The mouth over time, in steps of kMouthStep_s from time 0.
+struct MouthTrack {
+    std::vector<double> time_s;
+    std::vector<Mouth> mouths;
+    double at(double t_s, double Mouth::*measure) const;  ///< linear between samples
+};
+inline constexpr double kMouthStep_s = 1.0 / 240;
+
+/// Simulates from 0 to the end. The face must be set up as the script says (jaw, gravity, motion).
+MouthTrack simulate_mouth(face::Face& face, const track::Timeline& timeline, double duration_s,
+                          const MouthMeasures& measures,
+                          const std::function<void(double fraction)>& report = {});
+
+/// Lips are in contact below this gap, mm.
+inline constexpr double kContactGap_mm = 0.3;
+
+/// One closure of the lips as simulated. Times are those of the script, s.
+struct ClosureCheck {
+    int phone = 0;
+    double closure_s = 0, release_s = 0;  ///< in the sound
+    double max_gap_mm = 0;                ///< from the closure + 10 ms to the release - 5 ms
+    double least_gap_mm = 0;              ///< of the whole closure
+    double contact_s = 0, open_s = 0;     ///< NaN: none
+    bool reached() const { return least_gap_mm < kContactGap_mm; }
+    bool held() const { return max_gap_mm < kContactGap_mm; }
+};
+
+std::vector<ClosureCheck> check_closures(const MouthTrack& track, const PlacedUtterance& placed);
+
+/// What would mend the closures that leak, come late or open late: deeper by twice the gap and 0.6 mm, earlier by what is
+/// missing. Added to the changes that were in force.
+std::vector<speech::ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
+                                               std::vector<speech::ClosureChange> before);
+
+/// The table OUT.speech.tsv: a row for each phone, with its times in the script and in samples, and what the mouth did.
+std::string speech_table(const MouthTrack& track, const std::vector<PlacedUtterance>& utterances,
+                         const speech::PhoneTable& table);
+
+}  // namespace risorius::talk

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/talk/detail/gesture_drive.h"
+
+namespace risorius::talk {
+
+namespace {
+
+class GestureDrive : public track::DriveSource {
+  public:
+    GestureDrive(std::vector<speech::Gesture> gestures, track::Expansion brows, double start_s)
+        : gestures_(std::move(gestures)), brows_(std::move(brows)), start_s_(start_s) {}
+
+    void add(double t_s, track::Expansion& sum) const override {
+        for (const speech::Gesture& gesture : gestures_) {
+            const double value = gesture.at(t_s - start_s_);
+            if (value == 0) continue;
+            if (gesture.kind == speech::Gesture::Kind::kBrow)
+                sum.add(brows_, value);
+            else
+                sum.kinematic[static_cast<std::size_t>(track::Kinematic::kHeadPitch)] -= value;
+        }
+    }
+
+  private:
+    std::vector<speech::Gesture> gestures_;
+    track::Expansion brows_;
+    double start_s_;
+};
+
+}  // namespace
+
+std::shared_ptr<const track::DriveSource> gesture_drive(const speech::Prosody& prosody,
+                                                        const rig::RigDescription& rig,
+                                                        double start_s) {
+    if (prosody.gestures.empty()) return nullptr;
+    const track::ChannelTable channels = rig.channels();
+    track::Expansion brows = track::Expansion::none(channels);
+    for (const char* unit : {"AU1", "AU2"})
+        if (const track::ActionUnit* found = rig.facs.find(unit))
+            brows.add(track::expand(*found, std::nullopt, channels), 1);
+    return std::make_shared<GestureDrive>(prosody.gestures, std::move(brows), start_s);
+}
+
+std::vector<track::BlinkEvent> blinks_of(const speech::Prosody& prosody,
+                                         const rig::RigDescription& rig, double start_s) {
+    std::vector<track::BlinkEvent> out;
+    const track::ActionUnit* unit = rig.facs.find("AU45");
+    if (!unit) return out;
+    const track::ChannelTable channels = rig.channels();
+    for (const double blink_s : prosody.blinks_s) {
+        track::BlinkEvent event;
+        event.start_s = start_s + blink_s;
+        event.drives = track::expand(*unit, std::nullopt, channels);
+        out.push_back(std::move(event));
+    }
+    return out;
+}
+
+}  // namespace risorius::talk

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/talk/rig_voice_file.h"
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/output_set.h"
+#include "risorius/face/quality.h"
+#include "risorius/media/sha256.h"
+
+namespace risorius::talk {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Changes when poses are chosen, simulated or measured in another way.
+constexpr const char* kRecipe = "voice 5";
+
+/// Hash of everything that the poses depend on. Tables of expressions and wrinkles move no lip.
+std::string hash_of(const scene::RigFiles& files) {
+    media::Sha256 hash;
+    const auto add = [&](const std::string& text) { hash.add(text.data(), text.size()); };
+    add(kRecipe);
+    add(media::sha256_of_file(files.file));
+    add(media::sha256_of_file(files.rig.mesh_file));
+    for (const fs::path& table : files.rig.table_files) {
+        const std::string name = table.filename().string();
+        if (name == "expressions.json" || name == "facs.json" || name == "wrinkles.json") continue;
+        add(media::sha256_of_file(table));
+    }
+    return hash.finish();
+}
+
+fs::path cache_folder() {
+    const char* set = std::getenv("XDG_CACHE_HOME");
+    if (set && *set) return fs::path(set) / "risorius/voices";
+    const char* home = std::getenv("HOME");
+    return home && *home ? fs::path(home) / ".cache/risorius/voices" : fs::path();
+}
+
+/// The poses in a file, when it is there and was made of this rig.
+std::optional<RigVoice> read_matching(const fs::path& file, const std::string& hash,
+                                      const std::vector<std::string>& columns) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) return std::nullopt;
+    const JsonCursor json = JsonCursor::read_file(file);
+    if (!json.has("hash") || json.at("hash").string() != hash) return std::nullopt;
+    return RigVoice::read(json, columns);
+}
+
+RigVoice simulate(const scene::RigFiles& files, const std::function<void(double)>& report) {
+    face::Face face(files.rig, files.mesh, face::quality_named("video"), files.place());
+    return fit_voice(
+        face, files.rig, report ? report : [](double) {});
+}
+
+void write(const RigVoice& voice, const std::string& hash, const fs::path& file) {
+    const Json json = voice.json(hash);
+    std::string text = "{\n";
+    for (auto entry = json.begin(); entry != json.end(); ++entry) {
+        text += (entry == json.begin() ? " " : ",\n ") + json_text(entry.key()) + ": ";
+        if (entry.key() != "poses") {
+            text += json_text(*entry);
+            continue;
+        }
+        for (std::size_t i = 0; i < entry->size(); ++i)
+            text += (i ? ",\n  " : "[\n  ") + json_text((*entry)[i]);
+        text += "]";
+    }
+    write_file(file, text + "\n}\n");
+}
+
+}  // namespace
+
+fs::path voice_file_of(const fs::path& rig_file) {
+    return fs::path(rig_file).replace_extension(".voice.json");
+}
+
+RigVoice voice_of_rig(const scene::RigFiles& files, const std::function<void(double)>& report) {
+    const std::string hash = hash_of(files);
+    const std::vector<std::string> columns = files.rig.channels().column_names();
+    if (auto known = read_matching(voice_file_of(files.file), hash, columns)) return *known;
+    const fs::path folder = cache_folder();
+    if (!folder.empty())
+        if (auto known = read_matching(folder / (hash + ".json"), hash, columns)) return *known;
+    RigVoice voice = simulate(files, report);
+    if (folder.empty()) return voice;
+    try {
+        write(voice, hash, folder / (hash + ".json"));
+    } catch (const std::exception&) {
+        // A cache that cannot be written costs time only.
+    }
+    return voice;
+}
+
+fs::path write_voice_of_rig(const scene::RigFiles& files,
+                            const std::function<void(double)>& report) {
+    const fs::path file = voice_file_of(files.file);
+    write(simulate(files, report), hash_of(files), file);
+    return file;
+}
+
+}  // namespace risorius::talk

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// The events "say" of a script: what is said, when, how, and with which sound.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "risorius/scene/rig_files.h"
+#include "risorius/speech/windows.h"
+#include "risorius/talk/spoken_input.h"
+#include "risorius/track/script.h"
+
+namespace risorius::talk {
+
+struct SayEvent {
+    SpokenInput input;
+    /// Phones with durations instead of a text, s
+    std::vector<std::pair<std::string, double>> timed_phones;
+    double start_s = 0;  ///< time of the first sample of the sound
+    speech::SpeechStyle style;
+    double gestures = 0, blinks = 0;            ///< keys of "style", see speech::ProsodyOptions
+    std::vector<speech::ClosureChange> adjust;  ///< "adjust": closures, as a check found them
+    bool face = true;                           ///< false: only the sound, with a still face
+    bool sound = true;                          ///< false: "none"
+    std::filesystem::path sound_file;           ///< another sound than the spoken one; may be empty
+    std::int64_t sound_offset_samples = 0;      ///< moves the sound, in its samples; > 0: later
+    std::string place;                          ///< in messages
+};
+
+/// Reads one event. Throws Error; the message names the place.
+SayEvent read_say(const JsonCursor& event, double duration_s);
+
+/// An utterance in a script.
+struct PlacedUtterance {
+    speech::Utterance utterance;
+    speech::ArticulationTargets targets;  ///< without changes of closures
+    double start_s = 0;
+    bool face = true;
+};
+
+/// What all events of a script make.
+struct PlannedSpeech {
+    std::vector<PlacedUtterance> utterances;
+    std::vector<std::shared_ptr<const track::DriveSource>> sources;
+    std::vector<track::BlinkEvent> blinks;
+    /// The sound, if there is one; it may be a file that `keeps` removes at its end.
+    std::filesystem::path sound_file;
+    std::int64_t sound_offset_samples = 0;
+    std::shared_ptr<void> keeps;
+    std::vector<std::filesystem::path> files;  ///< that were read
+};
+
+/// Reads the events and plans the mouth. Throws Error when an event begins too early for the face to move before it, or when two
+/// events have a sound.
+PlannedSpeech plan_speech(const std::vector<JsonCursor>& says, const track::ScriptHeader& header,
+                          const scene::RigFiles& files);
+
+/// Adds what speech asks of the face to a script.
+void add_to_script(const PlannedSpeech& speech, track::ScriptDescription& script);
+
+}  // namespace risorius::talk

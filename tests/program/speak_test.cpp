@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// risorius speak from labels and utterances to files of text, as users call it. No voice is needed.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "paths.h"
+#include "shell.h"
+#include "temporary_folder.h"
+
+namespace risorius {
+namespace {
+
+class Speak : public testing::Test {
+  protected:
+    ShellResult speak(const std::string& arguments) const {
+        return run_shell("cd '" + folder_.path().string() + "' && '" +
+                         (std::filesystem::path(RISORIUS_BINARY_DIR) / "risorius").string() +
+                         "' speak " + arguments + " 2>&1");
+    }
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+    }
+    TemporaryFolder folder_;
+};
+
+TEST_F(Speak, LabelsBecomeOtherLabelsAndCurves) {
+    write("anna.ctm", "anna 1 0.15 0.10 AA1\nanna 1 0.25 0.09 P\nanna 1 0.34 0.12 AA0\n");
+    const auto [code, said] = speak("--labels anna.ctm -o anna.TextGrid");
+    EXPECT_EQ(code, 0) << said;
+    EXPECT_EQ(said, "anna.TextGrid: 4 phones, 0 words, 0.460 s\n");
+    EXPECT_NE(bytes_of(folder_ / "anna.TextGrid").find("text = \"ɑ\""), std::string::npos);
+    for (const char* out : {"a.utterance.json", "a.vtt", "a.ctm", "a.tsv", "a.curves.tsv"}) {
+        const auto [one, message] = speak("--labels anna.TextGrid -o " + std::string(out));
+        EXPECT_EQ(one, 0) << message;
+        EXPECT_TRUE(std::filesystem::exists(folder_ / out)) << out;
+    }
+    // The same phones by way of an utterance
+    EXPECT_EQ(speak("a.utterance.json -o b.curves.tsv").code, 0);
+    EXPECT_EQ(bytes_of(folder_ / "a.curves.tsv"), bytes_of(folder_ / "b.curves.tsv"));
+}
+
+TEST_F(Speak, MistakesAreToldWithTheirPlace) {
+    write("bad.ctm", "anna 1 0.15 0.10 AAA\n");
+    const auto [code, said] = speak("--labels bad.ctm -o x.TextGrid");
+    EXPECT_EQ(code, 2);
+    EXPECT_EQ(said,
+              "risorius: bad.ctm:1: expected a symbol of the set \"arpabet\" (the nearest is "
+              "\"AA\"), found \"AAA\"\n");
+    EXPECT_EQ(speak("-o x.TextGrid").code, 2);
+    write("a.xyz", "?");
+    const auto [unknown, message] = speak("--labels a.xyz -o x.TextGrid");
+    EXPECT_EQ(unknown, 2);
+    EXPECT_NE(message.find("a.xyz: expected a file of labels: textgrid, ctm"), std::string::npos)
+        << message;
+    EXPECT_EQ(folder_.listing(), (std::set<std::string>{"a.xyz", "bad.ctm"}));
+}
+
+}  // namespace
+}  // namespace risorius

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/talk/detail/rig_voice.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "message_of.h"
+#include "paths.h"
+#include "risorius/face/quality.h"
+#include "risorius/face/surfaces.h"
+#include "risorius/scene/rig_files.h"
+#include "risorius/talk/detail/check_speech.h"
+#include "risorius/talk/detail/speech_drive.h"
+#include "risorius/talk/say_event.h"
+#include "risorius/talk/speak_script.h"
+
+namespace risorius::talk {
+namespace {
+
+const std::vector<std::string> kColumns{"opener", "rounder", "presser"};
+
+/// Poses of a mouth that is linear: the opener opens by 10 mm, the rounder pushes out by 6 mm, the presser presses.
+RigVoice linear_voice() {
+    std::vector<MouthPose> poses;
+    for (const double jaw : {0.0, 5.0, 10.0})
+        for (const double open : {0.0, 0.5, 1.0})
+            for (const double round : {0.0, 1.0})
+                for (const double press : {0.0, 1.0}) {
+                    MouthPose pose;
+                    pose.activation = Eigen::Vector3d(open, round, press);
+                    pose.jaw_open = jaw / 40;
+                    pose.mouth.jaw = jaw;
+                    pose.virtual_gap = kGapOfJaw * jaw + 10 * open - 8 * press;
+                    pose.mouth.gap = std::max(0.0, pose.virtual_gap);
+                    pose.mouth.width = -8 * round;
+                    pose.mouth.upper_protrusion = pose.mouth.lower_protrusion = 6 * round;
+                    poses.push_back(pose);
+                }
+    return {poses, {0, 2, 4, 6, 8, 10, 12}, kColumns};
+}
+
+TEST(RigVoice, MixesPosesToTheWantedMouth) {
+    const RigVoice voice = linear_voice();
+    Eigen::VectorXd state;
+    const Eigen::VectorXd round = voice.activation_for(
+        {.jaw = 5, .gap = 5, .width = -4, .protrusion = 3, .labiodental = 0, .bounded = 0}, state);
+    EXPECT_NEAR(round[1], 0.5, 0.1);
+    EXPECT_NEAR(10 * round[0] - 8 * round[2] + kGapOfJaw * 5, 5, 0.6);
+    const Eigen::VectorXd closed = voice.activation_for(
+        {.jaw = 4, .gap = -1.2, .width = 0, .protrusion = 0, .labiodental = 0, .bounded = 1},
+        state);
+    EXPECT_LT(10 * closed[0] - 8 * closed[2] + kGapOfJaw * 4, -0.5);
+    EXPECT_LT(closed[1], 0.15);
+    EXPECT_DOUBLE_EQ(voice.jaw_open_of(3), 0.075);
+}
+
+TEST(RigVoice, ChangesLittleWhenTheWantedMouthDoes) {
+    const RigVoice voice = linear_voice();
+    Eigen::VectorXd state, before;
+    for (double gap = -1.5; gap < 8; gap += 0.01) {
+        const Eigen::VectorXd now = voice.activation_for(
+            {.jaw = 4, .gap = gap, .width = -2, .protrusion = 2, .labiodental = 0, .bounded = 0},
+            state);
+        if (before.size() > 0) {
+            EXPECT_LT((now - before).cwiseAbs().maxCoeff(), 0.05) << gap;
+        }
+        before = now;
+    }
+}
+
+TEST(RigVoice, IsWrittenAndReadAgain) {
+    const RigVoice voice = linear_voice();
+    const RigVoice again = RigVoice::read(JsonCursor::from_json(voice.json("x"), "v"), kColumns);
+    EXPECT_EQ(again.json("x"), voice.json("x"));
+    EXPECT_EQ(
+        message_of([&] { RigVoice::read(JsonCursor::from_json(voice.json("x"), "v"), {"other"}); }),
+        "v:/columns: expected the muscles of the rig, found others");
+}
+
+TEST(MouthMeasures, ATouchingMouthHasNoGapAndAnOpenJawOpensIt) {
+    const scene::RigFiles files =
+        scene::read_rig_files(std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs/adult/rig.json");
+    face::Face face(files.rig, files.mesh, face::quality_named("draft"), "adult");
+    const MouthMeasures measures(face.head(), files.rig);
+    track::Drive drive;
+    const Mouth rest = measures.at(face.surfaces().posed(face.head().vertices, drive));
+    EXPECT_NEAR(rest.gap, 0, 1e-9);
+    EXPECT_NEAR(rest.width, 0, 1e-9);
+    EXPECT_NEAR(rest.upper_protrusion, 0, 1e-9);
+    EXPECT_GT(rest.contact_mm, 15);
+    EXPECT_GT(rest.teeth, 1);
+    drive.kinematic[static_cast<std::size_t>(track::Kinematic::kJawOpen)] = 0.2;
+    face.solve_equilibrium({}, drive, {.iterations = 200});
+    const Mouth open = measures.at(face.pose());
+    EXPECT_NEAR(open.jaw, 8.13, 0.3);
+    // The lips open by less than the incisors.
+    EXPECT_GT(open.gap, 4);
+    EXPECT_LT(open.gap, open.jaw);
+    EXPECT_GT(open.area_mm2, 80);
+    EXPECT_EQ(open.contact_mm, 0);
+    // A turned head is the same mouth.
+    face::FacePose turned = face.pose();
+    const Mat3 turn(Eigen::AngleAxisd(0.3, Vec3::UnitY()));
+    turned.vertices *= turn.transpose();
+    turned.head = turn * turned.head;
+    EXPECT_NEAR(measures.at(turned).gap, open.gap, 1e-9);
+}
+
+TEST(SayEvent, IsReadWithItsRanges) {
+    const auto read = [](const char* text) {
+        return read_say(JsonCursor::from_json(Json::parse(text), "s.json"), 4);
+    };
+    const SayEvent event = read(
+        R"({"say": {"phones": [["a", 0.2], ["p", 0.12]]}, "start_s": 1, "style": {"jaw": 0.4},
+            "sound": "none", "adjust": [{"phone": 1, "deeper_mm": 0.6}]})");
+    EXPECT_EQ(event.timed_phones.size(), 2u);
+    EXPECT_EQ(event.style.jaw, 0.4);
+    EXPECT_FALSE(event.sound);
+    EXPECT_EQ(event.adjust[0].deeper_mm, 0.6);
+    EXPECT_EQ(message_of([&] { read(R"({"say": "a", "start_s": 1, "style": {"jaw": 3}})"); }),
+              "s.json:/style/jaw: expected [0, 2], found 3");
+    EXPECT_NE(message_of([&] {
+                  read(R"({"say": {}, "start_s": 1})");
+              }).find("one of \"phones\", \"labels\" and \"utterance\""),
+              std::string::npos);
+    EXPECT_NE(message_of([&] { read(R"({"say": "a", "start_s": 1, "speed": 1})"); }).find("speed"),
+              std::string::npos);
+}
+
+TEST(CheckSpeech, AClosureThatLeaksIsPressedDeeperAndALateOneBeginsEarlier) {
+    ClosureCheck leaks{.phone = 3,
+                       .closure_s = 1,
+                       .release_s = 1.1,
+                       .max_gap_mm = 0.7,
+                       .least_gap_mm = 0.2,
+                       .contact_s = 1.03,
+                       .open_s = 1.1};
+    ClosureCheck good{.phone = 5,
+                      .closure_s = 2,
+                      .release_s = 2.1,
+                      .max_gap_mm = 0.1,
+                      .least_gap_mm = 0,
+                      .contact_s = 2.0,
+                      .open_s = 2.11};
+    const auto changes = changes_for({leaks, good}, {});
+    ASSERT_EQ(changes.size(), 1u);
+    EXPECT_EQ(changes[0].phone, 3);
+    EXPECT_DOUBLE_EQ(changes[0].deeper_mm, 2 * 0.7 + 0.6);
+    EXPECT_NEAR(changes[0].earlier_s, 0.025, 1e-9);
+    const auto more = changes_for({leaks}, changes);
+    EXPECT_DOUBLE_EQ(more[0].deeper_mm, 2 * (2 * 0.7 + 0.6));
+}
+
+}  // namespace
+}  // namespace risorius::talk

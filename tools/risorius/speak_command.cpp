@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT
+// risorius speak TEXT -o OUT
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "risorius/animate/animate.h"
+#include "risorius/core/data_folder.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/output_set.h"
+#include "risorius/core/text_lines.h"
+#include "risorius/media/mono_sound.h"
+#include "risorius/speech/phone_table.h"
+#include "risorius/talk/rig_voice_file.h"
+#include "risorius/talk/script_checker.h"
+#include "risorius/talk/speak_script.h"
+#include "risorius/talk/spoken_input.h"
+#include "risorius/talk/voice.h"
+#include "tools/risorius/commands.h"
+#include "tools/risorius/render_options.h"
+
+namespace risorius::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr FileKind kText{"a text", kMegabyte};
+
+struct SpeakArguments {
+    Common common;
+    talk::SpokenInput input;
+    animate::RenderRequest render;  ///< its `out` is that of all kinds of output
+    std::string said, size;
+    fs::path script;
+    speech::SpeechStyle style;
+    double gestures = 0.6, blinks = 1;
+    int passes = 2;
+};
+
+/// "out/hello.utterance.json" and the like, for "out/hello.mp4".
+fs::path beside(const fs::path& out, const std::string& ending) {
+    fs::path base = out;
+    if (!base.has_filename()) base = base.parent_path();
+    return base.replace_extension().string() + ending;
+}
+
+/// TEXT is what to say, a file of text, or an utterance.
+void read_said(SpeakArguments& arguments) {
+    if (arguments.said.empty()) return;
+    const fs::path file = arguments.said;
+    std::error_code ignored;
+    if (arguments.said.size() < 4000 && fs::is_regular_file(file, ignored)) {
+        if (file.extension() == ".json")
+            arguments.input.utterance = file;
+        else
+            arguments.input.voice.text = read_text(file, kText);
+        return;
+    }
+    arguments.input.voice.text = arguments.said;
+}
+
+bool ends_with(const fs::path& file, std::string_view ending) {
+    return file.string().ends_with(ending);
+}
+
+/// The text of an output that holds no pictures; empty for others.
+std::string text_output(const fs::path& out, const speech::Utterance& utterance,
+                        const speech::PhoneTable& table) {
+    if (ends_with(out, ".utterance.json")) return speech::utterance_text(utterance);
+    if (ends_with(out, ".TextGrid")) return speech::textgrid_text(utterance, table);
+    if (ends_with(out, ".ctm")) return speech::ctm_text(utterance);
+    if (ends_with(out, ".vtt")) return speech::webvtt_text(utterance);
+    if (ends_with(out, ".curves.tsv")) return talk::curves_text(utterance, table);
+    if (ends_with(out, ".tsv")) return speech::rhubarb_text(utterance, table);
+    return "";
+}
+
+/// "a" as seen from the folder of `from`.
+fs::path seen_from(const fs::path& from, const fs::path& a) {
+    return fs::absolute(a).lexically_relative(fs::current_path() / folder_of_output(from));
+}
+
+/// Writes the utterance, and the sound of a voice; the utterance names its sound. Returns its path.
+fs::path write_utterance(talk::SpokenResult& result, const fs::path& out) {
+    OutputSet outputs(folder_of_output(out), OutputSet::Then::kRunGoesOn);
+    if (!result.spoken.sound.empty() && result.sound_file.empty()) {
+        const fs::path wav = beside(out, ".wav");
+        media::write_mono_wav({result.spoken.utterance.rate_hz, result.spoken.sound},
+                              outputs.file(wav));
+        result.sound_file = wav;
+    }
+    if (!result.sound_file.empty())
+        result.spoken.utterance.sound = seen_from(out, result.sound_file);
+    const fs::path file = beside(out, ".utterance.json");
+    write_file(outputs.file(file), speech::utterance_text(result.spoken.utterance));
+    outputs.commit();
+    return file;
+}
+
+void write_one(const fs::path& file, const std::string& text) {
+    OutputSet outputs(folder_of_output(file), OutputSet::Then::kRunGoesOn);
+    write_file(outputs.file(file), text);
+    outputs.commit();
+}
+
+bool same(const std::vector<speech::ClosureChange>& one,
+          const std::vector<speech::ClosureChange>& two) {
+    return std::equal(one.begin(), one.end(), two.begin(), two.end(),
+                      [](const speech::ClosureChange& a, const speech::ClosureChange& b) {
+                          return a.phone == b.phone && a.deeper_mm == b.deeper_mm &&
+                                 a.earlier_s == b.earlier_s && a.shorter_s == b.shorter_s;
+                      });
+}
+
+/// More closures hold, and, of as many, fewer of them stay shut too long.
+bool is_better(const talk::CheckedSpeech& one, const talk::CheckedSpeech& other) {
+    return std::pair(one.held, one.opened) > std::pair(other.held, other.opened);
+}
+
+/// Writes the utterance, the script and what the script shows.
+void render_speech(SpeakArguments& arguments, talk::SpokenResult& result,
+                   const speech::PhoneTable& table) {
+    const fs::path out = arguments.render.out;
+    const bool only_script = out.extension() == ".json";
+    const fs::path script_file = only_script ? out : beside(out, ".script.json");
+    talk::SpeakScriptOptions options;
+    // An utterance that was given stays where it is.
+    const fs::path utterance_file = arguments.input.utterance.empty() ? write_utterance(result, out)
+                                                                      : arguments.input.utterance;
+    options.utterance = seen_from(out, utterance_file);
+    options.style = arguments.style;
+    options.gestures = arguments.gestures;
+    options.blinks = arguments.blinks;
+    options.fps = arguments.render.fps.value_or(60);
+    if (!arguments.script.empty()) options.base = JsonCursor::read_file(arguments.script);
+    if (arguments.render.rig)
+        options.rig = seen_from(out, *arguments.render.rig);
+    else if (options.base)
+        options.rig = seen_from(out, options.base->at("rig").path());
+    else
+        options.rig = seen_from(out, data_folder() / "rigs/adult/rig.json");
+    Json script = talk::speak_script(result.spoken.utterance, options);
+    const auto save = [&] { write_one(script_file, json_text(script, 1) + "\n"); };
+    save();
+    ProgressBar bar(arguments.common);
+    const scene::RigFiles files =
+        scene::read_rig_files(folder_of_output(script_file) / options.rig);
+    talk::voice_of_rig(files, [&](double fraction) {
+        bar.monitor().report(fraction, "simulating mouths of this rig, once");
+    });
+    // The face is simulated without pictures. Closures that leak are pressed deeper, those that come late begin earlier.
+    talk::ScriptChecker checker(files, animate::quality_of(arguments.render));
+    talk::CheckedSpeech best;
+    for (int pass = 0;; ++pass) {
+        talk::CheckedSpeech checked = checker.check(
+            JsonCursor::from_json(script, script_file.string()), [&](double fraction) {
+                bar.monitor().report(fraction, "checking closures of the lips");
+            });
+        const std::vector<talk::ClosureCheck> closures = checked.closures.back();
+        if (pass == 0 || is_better(checked, best)) {
+            best = std::move(checked);
+            save();
+        }
+        if (pass >= arguments.passes) break;
+        std::vector<speech::ClosureChange> changes = talk::changes_for(closures, options.adjust);
+        if (same(changes, options.adjust)) break;
+        options.adjust = std::move(changes);
+        script = talk::speak_script(result.spoken.utterance, options);
+    }
+    const talk::CheckedSpeech& checked = best;
+    write_one(beside(out, ".speech.tsv"),
+              talk::speech_table(checked.track, checked.utterances, table));
+    if (!arguments.common.quiet && checked.total > 0)
+        std::printf("closures of the lips: %d, reached %d, held %d\n", checked.total,
+                    checked.reached, checked.held);
+    if (only_script) return;
+    arguments.render.script = script_file;
+    arguments.render.rig.reset();
+    finish_view(arguments.render, arguments.size);
+    const animate::RunRecord record = animate::animate(arguments.render, bar.monitor());
+    for (const std::string& warning : record.warnings)
+        std::fprintf(stderr, "note: %s\n", warning.c_str());
+}
+
+void run_speak(SpeakArguments& arguments) {
+    read_said(arguments);
+    const fs::path out = arguments.render.out;
+    const speech::PhoneTable table = speech::PhoneTable::standard();
+    talk::SpokenResult result = talk::read_spoken(arguments.input, table);
+    if (ends_with(out, ".utterance.json"))
+        write_utterance(result, fs::path(out.string().substr(0, out.string().size() - 15) + ".x"));
+    else if (const std::string text = text_output(out, result.spoken.utterance, table);
+             !text.empty())
+        write_one(out, text);
+    else
+        render_speech(arguments, result, table);
+    if (arguments.common.quiet) return;
+    const speech::Utterance& utterance = result.spoken.utterance;
+    std::printf("%s: %zu phones, %zu words, %.3f s\n", out.string().c_str(),
+                utterance.phones.size(), utterance.words.size(),
+                utterance.seconds(utterance.samples));
+}
+
+}  // namespace
+
+void add_speak(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("speak", "Let a face say a text, or what the labels of a recording say");
+    auto arguments = std::make_shared<SpeakArguments>();
+    talk::SpokenInput& input = arguments->input;
+    command->add_option("TEXT", arguments->said,
+                        "What to say: a text, a text file, or a file of format risorius-utterance");
+    command
+        ->add_option("-o,--out", arguments->render.out,
+                     "The file to write, by its ending. .mp4, .mov, .mkv, .webm, or a folder that "
+                     "ends in /: the talking face, with its script, utterance and sound beside "
+                     "it; .json: the script alone; .utterance.json: phones in samples, with "
+                     "the sound beside it; .TextGrid, .ctm, .vtt: labels; .tsv: mouth shapes of "
+                     "Rhubarb; .curves.tsv: curves of jaw, lips and tongue")
+        ->required();
+    command
+        ->add_option("--voice", input.voice.language,
+                     "Language of the voice, such as fi, en-us, cs")
+        ->capture_default_str();
+    command->add_option("--program", input.voice.program,
+                        "Synthesiser, a name of rigs/standard/voices.json. Default: the first one");
+    command->add_option("--rate", input.voice.rate, "Speed of speech, 0.3 to 3")
+        ->capture_default_str();
+    command->add_option("--pitch", input.voice.pitch, "Pitch of the voice, 0 to 99")
+        ->capture_default_str();
+    command->add_option("--phones", input.voice.phones,
+                        "Phones instead of a text, as the synthesiser spells them");
+    command->add_option("--labels", input.labels,
+                        "A file of labels: TextGrid, CTM, .lab, .pho and others");
+    command->add_option("--label-format", input.label_format,
+                        "Format of the labels, if their file does not tell");
+    command->add_option("--tier", input.label_options.phones_tier,
+                        "Tier of the labels with the phones. Default: phones, phone, MAU, visemes");
+    command->add_option("--symbols", input.label_options.symbols,
+                        "How the labels spell phones: ipa, espeak, arpabet, xsampa, finnish");
+    command->add_option("--audio", input.audio, "The recording of the labels: WAV or FLAC");
+    command->add_option("--rig", arguments->render.rig, "The rig. Default: the adult");
+    command->add_option("--script", arguments->script,
+                        "A script to add the speech to, with its expressions, view and rig");
+    command->add_option("--fps", arguments->render.fps, "Frames per second, 1 to 240");
+    command
+        ->add_option("--jaw", arguments->style.jaw,
+                     "How far the jaw opens, 0 to 2: 0.4 mumbled, 1.3 clear, 1.8 shouted")
+        ->check(CLI::Range(0.0, 2.0));
+    command
+        ->add_option("--lips", arguments->style.lips,
+                     "How much the lips move, 0 to 2: 0.5 mumbled, 1.2 clear")
+        ->check(CLI::Range(0.0, 2.0));
+    command
+        ->add_option("--gestures", arguments->gestures,
+                     "Movements of brows and head with the stress, 0 to 2; 0: none")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 2.0));
+    command
+        ->add_option("--blinks", arguments->blinks,
+                     "Blinks, 0 to 2: 1 is 26 a minute, most of them in pauses; 0: none")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 2.0));
+    command
+        ->add_option("--passes", arguments->passes,
+                     "How often closures of the lips that leak are mended, 0 to 3")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 3));
+    add_view(*command, arguments->render, arguments->size);
+    add_common(*command, arguments->common);
+    command->footer(
+        "Example:\n  risorius speak \"Good morning.\" --voice en-us -o out/morning.mp4\n"
+        "  risorius speak \"Good morning.\" --voice en-us -o out/morning.TextGrid\n"
+        "  risorius speak --labels anna.TextGrid --audio anna.wav -o out/anna.utterance.json");
+    command->callback([arguments] { run_speak(*arguments); });
+}
+
+}  // namespace risorius::cli
