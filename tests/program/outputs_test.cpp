@@ -65,6 +65,20 @@ int wait_for(pid_t child) {
     return exit_code(status);
 }
 
+/// Waits until the program catches SIGTERM: on a busy machine it takes a while to get to main().
+void wait_until_it_listens(pid_t child) {
+    constexpr unsigned long kTerm = 1UL << (SIGTERM - 1);
+    const std::string key = "SigCgt:";
+    for (int i = 0; i < 3000; ++i) {
+        const std::string status = bytes_of("/proc/" + std::to_string(child) + "/status");
+        const std::size_t at = status.find(key);
+        if (at != std::string::npos &&
+            (std::stoul(status.substr(at + key.size()), nullptr, 16) & kTerm) != 0)
+            return;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+}
+
 TEST(Outputs, AreNeverInputs) {
     const Folder folder;
     const std::string render = clip_in(folder);
@@ -134,6 +148,7 @@ TEST(Outputs, AreGoneWithinASecondAfterAStop) {
         for (const int after_ms : {300, 1500}) {
             const Folder folder;
             const pid_t child = start({"render", kHello, "--draft", "-o", "x/y.mp4"}, folder);
+            wait_until_it_listens(child);
             std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
             const Clock::time_point begin = Clock::now();
             ::kill(child, signal);
