@@ -197,12 +197,29 @@ const speech::PhoneTable& phones() {
     return table;
 }
 
+void add_utterance(const speech::Utterance& utterance, Digest& digest) {
+    digest.add(utterance.samples);
+    for (const speech::Phone& phone : utterance.phones) {
+        digest.add(phone.text());
+        digest.add(phone.stress);
+        digest.add(phone.start);
+        digest.add(phone.end);
+        for (const auto& moment : {phone.closure, phone.release, phone.voice_onset})
+            digest.add(moment.value_or(-1));
+    }
+    for (const auto& spans : {utterance.words, utterance.sentences})
+        for (const speech::Span& span : spans) {
+            digest.add(span.text);
+            digest.add(span.start);
+            digest.add(span.end);
+        }
+}
+
 void read_labels_as(const std::string& format, const std::uint8_t* data, std::size_t size,
                     Digest& digest) {
     const speech::LabelFile labels =
         speech::parse_labels(text_of(data, size), format, "input", 48000);
-    digest.add(speech::utterance_text(
-        speech::utterance_of_labels(labels, {}, phones(), 48000, {}, "input")));
+    add_utterance(speech::utterance_of_labels(labels, {}, phones(), 48000, {}, "input"), digest);
 }
 
 void read_textgrid(const std::uint8_t* data, std::size_t size, Digest& digest) {
@@ -218,8 +235,9 @@ void read_labels(const std::uint8_t* data, std::size_t size, Digest& digest) {
 }
 
 void read_utterance(const std::uint8_t* data, std::size_t size, Digest& digest) {
-    digest.add(speech::utterance_text(
-        speech::read_utterance(parse_json_text(text_of(data, size), "input.json"), phones())));
+    add_utterance(
+        speech::read_utterance(parse_json_text(text_of(data, size), "input.json"), phones()),
+        digest);
 }
 
 void read_picture(const std::uint8_t* data, std::size_t size, Digest& digest) {

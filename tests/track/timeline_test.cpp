@@ -64,7 +64,8 @@ class OtherSource : public DriveSource {
 TEST(Timeline, OtherSourcesAreAddedAndWeakenExpressions) {
     ScriptDescription script =
         script_of(R"({"zygomaticus_major": {"keys": [[0, 0.1]]}})",
-                  R"([{"expression": "happiness", "start_s": 0, "onset_s": 0, "hold_s": 4}])");
+                  R"([{"expression": "happiness", "intensity": 0.4, "start_s": 0, "onset_s": 0,
+                       "hold_s": 4}])");
     const Drive without = Timeline(script, tables().channels).at(0.5);
     script.sources.push_back(std::make_shared<OtherSource>());
     const Timeline face(script, tables().channels);
@@ -74,8 +75,8 @@ TEST(Timeline, OtherSourcesAreAddedAndWeakenExpressions) {
                 std::min(1.0, 0.1 + smile / 3 + 0.5), 1e-12);
     EXPECT_EQ(excitation(face.at(1.5), "zygomaticus_major.l"),
               excitation(Timeline(script_of(R"({"zygomaticus_major": {"keys": [[0, 0.1]]}})",
-                                            R"([{"expression": "happiness", "start_s": 0,
-                                                 "onset_s": 0, "hold_s": 4}])"),
+                                            R"([{"expression": "happiness", "intensity": 0.4,
+                                                 "start_s": 0, "onset_s": 0, "hold_s": 4}])"),
                                   tables().channels)
                              .at(1.5),
                          "zygomaticus_major.l"));
