@@ -8,10 +8,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "message_of.h"
 #include "paths.h"
 #include "risorius/core/error.h"
 #include "risorius/face/face.h"
 #include "risorius/headmodel/sculpt_head.h"
+#include "risorius/inverse/read_units.h"
 #include "risorius/media/image_file.h"
 #include "risorius/report/atomic_folder.h"
 #include "risorius/scene/rig_files.h"
@@ -233,6 +235,27 @@ TEST(Evaluation, SaysWhichExpressionsTheRigWasCalibratedOn) {
     EXPECT_EQ(groups[1].names, (std::vector<std::string>{"smile", "smile_L", "jawLeft"}));
     EXPECT_EQ(groups[2].names, (std::vector<std::string>{"sneer", "jawRight"}));
     EXPECT_NEAR(evaluation.means(groups[2].names, false).cosine, 0.7, 1e-15);
+}
+
+TEST(ReadUnits, TheAdultsUnitsGoAsFarAndAsEvenlyAsTheTableAsks) {
+    const UnitReadings readings =
+        read_units(kRoot / "rigs/adult/rig.json", {"AU4", "AU12"}, "preview");
+    EXPECT_NEAR(readings.neutral.lid_aperture, 10.3, 0.5);
+    ASSERT_EQ(readings.units.size(), 2u);
+    for (const scene::UnitReading& unit : readings.units) {
+        EXPECT_GT(unit.gain, 0.8) << unit.unit;
+        EXPECT_LT(unit.gain, 1.25) << unit.unit;
+        const std::array<double, 3> even{0.25, 0.5, 0.75};
+        for (std::size_t i = 0; i < even.size(); ++i)
+            EXPECT_NEAR(unit.response[i], even[i], 0.05) << unit.unit;
+        EXPECT_LT(unit.change.lid_aperture, -0.9) << unit.unit;
+        EXPECT_GT(unit.change.lid_aperture, -3) << unit.unit;
+        EXPECT_TRUE(unit.in_equilibrium) << unit.unit;
+    }
+    EXPECT_GT(readings.units[1].change.corner_height, 8);
+    EXPECT_EQ(message_of([] { read_units(kRoot / "rigs/adult/rig.json", {"AU99"}, "preview"); }),
+              (kRoot / "rigs/adult/rig.json").string() +
+                  ": expected an action unit with landmark targets, found \"AU99\"");
 }
 
 }  // namespace
