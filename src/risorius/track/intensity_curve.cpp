@@ -2,7 +2,8 @@
 #include "risorius/track/intensity_curve.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "risorius/track/detail/curve.h"
 
 namespace risorius::track {
 
@@ -18,13 +19,7 @@ IntensityCurve::IntensityCurve(const std::array<double, 3>& activation) {
     slope_[0] = secant[0];
     slope_[4] = secant[3];
     for (std::size_t i = 1; i < 4; ++i) slope_[i] = (secant[i - 1] + secant[i]) / 2;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const double a = slope_[i] / secant[i], b = slope_[i + 1] / secant[i];
-        if (a * a + b * b <= 9) continue;
-        const double shrink = 3 / std::sqrt(a * a + b * b);
-        slope_[i] = shrink * a * secant[i];
-        slope_[i + 1] = shrink * b * secant[i];
-    }
+    keep_monotone(secant, slope_);
 }
 
 double IntensityCurve::activation(double intensity) const {

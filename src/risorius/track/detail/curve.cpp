@@ -16,8 +16,15 @@ std::vector<double> monotone_slopes(const std::vector<Key>& keys) {
         secants[i] = (keys[i + 1].value - keys[i].value) / (keys[i + 1].time_s - keys[i].time_s);
     for (std::size_t i = 1; i + 1 < n; ++i)
         if (secants[i - 1] * secants[i] > 0) slopes[i] = (secants[i - 1] + secants[i]) / 2;
-    // Inside the circle of radius 3 around the secant, the cubic is monotone (condition 4 of Fritsch & Carlson).
-    for (std::size_t i = 0; i + 1 < n; ++i) {
+    if (n > 0) keep_monotone(std::span<const double>(secants).first(n - 1), slopes);
+    return slopes;
+}
+
+}  // namespace
+
+// Inside the circle of radius 3 around the secant, the cubic is monotone (condition 4 of Fritsch & Carlson).
+void keep_monotone(std::span<const double> secants, std::span<double> slopes) {
+    for (std::size_t i = 0; i < secants.size(); ++i) {
         if (secants[i] == 0) continue;
         const double a = slopes[i] / secants[i], b = slopes[i + 1] / secants[i];
         const double squared_radius = a * a + b * b;
@@ -26,10 +33,7 @@ std::vector<double> monotone_slopes(const std::vector<Key>& keys) {
         slopes[i] = shrink * a * secants[i];
         slopes[i + 1] = shrink * b * secants[i];
     }
-    return slopes;
 }
-
-}  // namespace
 
 Curve::Curve(std::vector<Key> keys, Interpolation interpolation)
     : keys_(std::move(keys)), interpolation_(interpolation) {

@@ -7,9 +7,13 @@
 /// overshoot between two keys. Its slope is 0 at both ends, where it joins the constant parts.
 #pragma once
 
+#include <span>
 #include <vector>
 
 namespace risorius::track {
+
+/// Shrinks the slopes at the ends of each part so that its cubic is monotone. `secants`: one for each part; `slopes`: one more.
+void keep_monotone(std::span<const double> secants, std::span<double> slopes);
 
 enum class Interpolation { kStep, kLinear, kSmooth };
 
