@@ -97,31 +97,18 @@ void add_pause(Utterance& out, std::int64_t start, std::int64_t end) {
 
 void add_phones(const Label& label, const std::string& set, bool visemes, const PhoneTable& table,
                 Utterance& out) {
-    double share = 0;
-    std::int64_t at = label.start;
     const std::vector<SplitPhone> parts = table.split(label.text, set, label.place);
-    const auto length = static_cast<double>(label.end - label.start);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        share += parts[i].share;
-        const std::int64_t end =
-            i + 1 == parts.size() ? label.end : label.start + std::llround(share * length);
-        if (end <= at) continue;
-        if (parts[i].symbol == kPause) {
-            add_pause(out, at, end);
-        } else {
-            Phone phone;
-            phone.symbol = parts[i].symbol;
-            phone.length_mark = parts[i].length_mark;
-            phone.stress = parts[i].stress;
-            phone.start = at;
-            phone.end = end;
-            if (visemes && table.phone(phone.symbol, label.place).kind == PhoneClass::kClosure) {
-                phone.closure = end - std::llround(kVisemeClosure * static_cast<double>(end - at));
-                phone.release = end;
-            }
-            out.phones.push_back(std::move(phone));
+    for (Phone& phone : timed_phones(parts, label.start, label.end)) {
+        if (phone.is_pause()) {
+            add_pause(out, phone.start, phone.end);
+            continue;
         }
-        at = end;
+        if (visemes && table.phone(phone.symbol, label.place).kind == PhoneClass::kClosure) {
+            phone.closure = phone.end - std::llround(kVisemeClosure *
+                                                     static_cast<double>(phone.end - phone.start));
+            phone.release = phone.end;
+        }
+        out.phones.push_back(std::move(phone));
     }
 }
 

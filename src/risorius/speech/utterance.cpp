@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/speech/utterance.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/existing_file.h"
@@ -176,6 +177,28 @@ std::string utterance_text(const Utterance& utterance) {
         out += "\n ]";
     }
     return out + "\n}\n";
+}
+
+std::vector<Phone> timed_phones(const std::vector<SplitPhone>& parts, std::int64_t start,
+                                std::int64_t end) {
+    std::vector<Phone> out;
+    double share = 0;
+    std::int64_t at = start;
+    const auto length = static_cast<double>(end - start);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        share += parts[i].share;
+        const std::int64_t to = i + 1 == parts.size() ? end : start + std::llround(share * length);
+        if (to <= at) continue;
+        Phone phone;
+        phone.symbol = parts[i].symbol;
+        phone.length_mark = parts[i].length_mark;
+        phone.stress = parts[i].stress;
+        phone.start = at;
+        phone.end = to;
+        out.push_back(phone);
+        at = to;
+    }
+    return out;
 }
 
 }  // namespace risorius::speech

@@ -59,6 +59,10 @@ struct Utterance {
     int word_at(std::int64_t sample) const;
 };
 
+/// The phones of a label that was split, one after another from `start` to `end`; those shorter than a sample are left out.
+std::vector<Phone> timed_phones(const std::vector<SplitPhone>& parts, std::int64_t start,
+                                std::int64_t end);
+
 /// The greatest number of samples: what JSON and all readers can hold.
 inline constexpr std::int64_t kMaxSamples = 2147483647;
 

@@ -112,26 +112,11 @@ class Builder {
 
     void add_event(const VoiceRow& event, std::int64_t start, std::int64_t end) {
         const auto parts = phones_.split(event.symbol, symbols_.set, "voice: " + event.symbol);
-        double share = 0;
-        std::int64_t at = start;
-        for (std::size_t k = 0; k < parts.size(); ++k) {
-            share += parts[k].share;
-            const std::int64_t to =
-                k + 1 == parts.size()
-                    ? end
-                    : start + std::llround(share * static_cast<double>(end - start));
-            if (to <= at) continue;
-            Phone phone;
-            phone.symbol = parts[k].symbol;
-            phone.length_mark = parts[k].length_mark;
-            phone.stress = parts[k].stress;
-            phone.start = at;
-            phone.end = to;
+        for (Phone& phone : speech::timed_phones(parts, start, end)) {
             if (phone.is_pause() && !out_.phones.empty() && out_.phones.back().is_pause())
-                out_.phones.back().end = to;
+                out_.phones.back().end = phone.end;
             else
                 out_.phones.push_back(std::move(phone));
-            at = to;
         }
         // Phones touch each other, also where an event was left out.
         for (std::size_t i = 1; i < out_.phones.size(); ++i)
