@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -47,6 +48,48 @@ TEST(Expressions, TakeTheTimesReportedForPeople) {
         for (const ExpressionUnit& unit : e.parts.units)
             EXPECT_LE(unit.delay * e.onset_s, 0.2 + 1e-12) << name << " " << unit.use.unit;
     }
+}
+
+TEST(Expressions, TakeTheTimesOfTheirManner) {
+    const auto times = [](const std::string& expression, const std::string& more) {
+        const ExpressionEvent event = script_with(expression, more).expressions.at(0);
+        return std::array{event.onset_s, event.hold_s, event.offset_s};
+    };
+    const auto usual = times("happiness", "");
+    // Means of 406 clips of CASME II and SAMM, weighted by clips: (32 x 194 + 26 x 190) / 58 ms up, (32 x 170 + 26 x 178) / 58 down
+    EXPECT_EQ(times("happiness", R"(, "manner": "micro")"), (std::array{0.192, 0.0, 0.174}));
+    // An expression that neither study has takes the mean of all: (249 x 167 + 157 x 165) / 406, (249 x 167 + 157 x 202) / 406
+    EXPECT_EQ(times("pride", R"(, "manner": "micro")"), (std::array{0.166, 0.0, 0.181}));
+    const auto posed = times("happiness", R"(, "manner": "posed")"),
+               spontaneous = times("happiness", R"(, "manner": "spontaneous")");
+    for (const int i : {0, 2}) {
+        EXPECT_LT(posed[i], usual[i]);
+        EXPECT_GT(spontaneous[i], usual[i]);
+    }
+    EXPECT_EQ(posed[1], usual[1]);
+    // What the event gives itself wins.
+    EXPECT_EQ(times("happiness", R"(, "manner": "micro", "hold_s": 0.1)"),
+              (std::array{0.192, 0.1, 0.174}));
+    EXPECT_EQ(message_of([&] { times("happiness", R"(, "manner": "shy")"); }),
+              "script.json:/events/0/manner: expected one of \"posed\" \"spontaneous\" \"micro\", "
+              "found \"shy\"");
+}
+
+TEST(Expressions, HaveMannersWithEitherAFactorOrTimes) {
+    const auto read = [](const std::string& text) {
+        return read_manner(JsonCursor::from_json(Json::parse(text), "manners.json"), "shy");
+    };
+    EXPECT_EQ(
+        message_of([&] {
+            read(
+                R"({"source": "x", "factor": {"onset": 1, "hold": 1, "offset": 1}, "onset_s": 1})");
+        }),
+        "manners.json:/: expected either a factor or times, found both");
+    EXPECT_EQ(message_of([&] { read(R"({"source": "x"})"); }),
+              "manners.json:/: expected the key \"onset_s\", found none");
+    const Manner slow = read(R"({"source": "x", "factor": {"onset": 20, "hold": 2, "offset": 0}})");
+    EXPECT_EQ(slow.times("joy", {10, 1, 1}).onset_s, 60) << "the limit of a script";
+    EXPECT_EQ(slow.times("joy", {10, 1, 1}).hold_s, 2);
 }
 
 TEST(Expressions, ComeWithOneSmoothRiseOfSpeed) {

@@ -145,6 +145,12 @@ const ArkitShape* FacsTable::find_arkit(const std::string& name) const {
     return nullptr;
 }
 
+const Manner* Expressions::find_manner(const std::string& name) const {
+    for (const Manner& manner : manners)
+        if (manner.name == name) return &manner;
+    return nullptr;
+}
+
 const Expression* Expressions::find(const std::string& name) const {
     for (const Expression& expression : list)
         if (expression.name == name) return &expression;
@@ -256,7 +262,7 @@ const ExpressionVariant* Expression::find_variant(const std::string& variant) co
 
 Expressions read_expressions(const JsonCursor& json, const FacsTable& facs,
                              const ChannelTable& channels) {
-    json.allow_keys({"source", "expressions"});
+    json.allow_keys({"source", "expressions", "manners"});
     const JsonCursor table = json.at("expressions");
     Expressions expressions;
     for (const std::string& name : table.keys()) {
@@ -279,6 +285,14 @@ Expressions read_expressions(const JsonCursor& json, const FacsTable& facs,
             }
         expressions.list.push_back(std::move(expression));
     }
+    if (const auto manners = json.find("manners"))
+        for (const std::string& name : manners->keys()) {
+            const JsonCursor entry = manners->at(name);
+            expressions.manners.push_back(read_manner(entry, name));
+            for (const auto& [expression, times] : expressions.manners.back().listed)
+                if (!expressions.find(expression))
+                    entry.at("expressions").at(expression).fail("the name of an expression");
+        }
     return expressions;
 }
 

@@ -16,6 +16,7 @@
 #include "risorius/core/json_cursor.h"
 #include "risorius/track/channels.h"
 #include "risorius/track/intensity_curve.h"
+#include "risorius/track/manner.h"
 
 namespace risorius::track {
 
@@ -121,10 +122,12 @@ struct Expression {
 
 struct Expressions {
     std::vector<Expression> list;
-    const Expression* find(const std::string& name) const;  ///< null when unknown
+    std::vector<Manner> manners;                               ///< none in tables of older versions
+    const Expression* find(const std::string& name) const;     ///< null when unknown
+    const Manner* find_manner(const std::string& name) const;  ///< null when unknown
 };
 
-/// Reads expressions.json. Throws Error for unknown units and muscles, and for values outside their ranges.
+/// Reads expressions.json. Throws Error for unknown units, muscles and expressions, and for values outside their ranges.
 Expressions read_expressions(const JsonCursor& json, const FacsTable& facs,
                              const ChannelTable& channels);
 

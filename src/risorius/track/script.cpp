@@ -150,7 +150,7 @@ class Reader {
                                int number) const {
         const double duration_s = header.duration_s;
         json.allow_keys({"expression", "variant", "intensity", "start_s", "onset_s", "hold_s",
-                         "offset_s", "side", "asymmetry"});
+                         "offset_s", "side", "asymmetry", "manner"});
         const Expression& usual = expression_named(json.at("expression"));
         const ExpressionParts& parts = parts_of(usual, json);
         ExpressionEvent event;
@@ -158,9 +158,10 @@ class Reader {
         if (const auto variant = json.find("variant")) event.variant = variant->string();
         event.intensity = optional_number(json, "intensity", 1, {0, 1});
         event.start_s = json.at("start_s").number({0, duration_s});
-        event.onset_s = optional_number(json, "onset_s", usual.onset_s, {0, 60});
-        event.hold_s = optional_number(json, "hold_s", usual.hold_s, {0, kLongest_s});
-        event.offset_s = optional_number(json, "offset_s", usual.offset_s, {0, 60});
+        const ExpressionTimes times = times_of(usual, json);
+        event.onset_s = optional_number(json, "onset_s", times.onset_s, {0, 60});
+        event.hold_s = optional_number(json, "hold_s", times.hold_s, {0, kLongest_s});
+        event.offset_s = optional_number(json, "offset_s", times.offset_s, {0, 60});
         event.side = read_side(json);
         event.asymmetry = optional_number(json, "asymmetry", 0, {0, kMaxAsymmetry});
         // Random numbers are drawn in a way that is the same for every standard library.
@@ -292,6 +293,19 @@ class Reader {
                 (i > 0 ? ", " : "one of ") + risorius::in_quotes(expression.variants[i].name);
         if (expression.variants.empty()) expected += "which has none";
         variant->fail(expected);
+    }
+
+    /// The usual times of the expression, in the manner that the event names.
+    ExpressionTimes times_of(const Expression& expression, const JsonCursor& json) const {
+        const ExpressionTimes usual{expression.onset_s, expression.hold_s, expression.offset_s};
+        const auto manner = json.find("manner");
+        if (!manner) return usual;
+        if (const Manner* found = expressions_.find_manner(manner->string()))
+            return found->times(expression.name, usual);
+        std::string expected =
+            expressions_.manners.empty() ? "a rig whose expressions table has manners" : "one of";
+        for (const Manner& known : expressions_.manners) expected += " " + in_quotes(known.name);
+        manner->fail(expected);
     }
 
     void close_lids(const JsonCursor& place, BlinkEvent& event) const {
