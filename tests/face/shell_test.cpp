@@ -38,7 +38,7 @@ struct Tissue {
               drop_unsupported_vertices(build_shell(head, jaw, lids, {vertices}), head, rig, lids)),
           mesh(build_tissue_mesh(head, rig, shell, lids)) {}
 };
-const Tissue& adult() {
+const Tissue& adult_tissue() {
     static const Tissue one(rig::adult(), 800);
     return one;
 }
@@ -55,13 +55,13 @@ double smallest_volume(const TissueMesh& mesh) {
 }
 
 TEST(Shell, HasAboutAsManyVerticesAsAskedFor) {
-    EXPECT_NEAR(static_cast<double>(adult().shell.vertex.size()), 800, 40);
-    const Shell fine = build_shell(adult().head, adult().jaw, adult().lids, {1700});
+    EXPECT_NEAR(static_cast<double>(adult_tissue().shell.vertex.size()), 800, 40);
+    const Shell fine = build_shell(adult_tissue().head, adult_tissue().jaw, adult_tissue().lids, {1700});
     EXPECT_NEAR(static_cast<double>(fine.vertex.size()), 1700, 85);
 }
 
 TEST(Shell, IsOneManifoldSheetWithHolesForMouthAndEyes) {
-    const Shell& shell = adult().shell;
+    const Shell& shell = adult_tissue().shell;
     const geom::SurfaceEdges edges = geom::surface_edges(shell.triangles);
     for (int e = 0; e < edges.count(); ++e) ASSERT_LE(edges.triangle_count(e), 2);
     EXPECT_EQ(geom::surface_pieces(shell.triangles, static_cast<int>(shell.vertex.size())).count(),
@@ -72,11 +72,11 @@ TEST(Shell, IsOneManifoldSheetWithHolesForMouthAndEyes) {
 
 TEST(Shell, FacesOutwards) {
     // A coarse triangle at a fold may lean over, but no more than a few do.
-    const Shell& shell = adult().shell;
+    const Shell& shell = adult_tissue().shell;
     int leaning = 0;
     for (long f = 0; f < shell.triangles.rows(); ++f) {
         const auto p = [&](int k) -> Vec3 {
-            return adult().head.vertices.row(shell.vertex[shell.triangles(f, k)]).transpose();
+            return adult_tissue().head.vertices.row(shell.vertex[shell.triangles(f, k)]).transpose();
         };
         const Vec3 n = (p(1) - p(0)).cross(p(2) - p(0)).normalized();
         Vec3 d = Vec3::Zero();
@@ -90,9 +90,9 @@ TEST(Shell, FacesOutwards) {
 }
 
 TEST(Shell, CoversTheMovingFaceAndHoldsOnlyItsOutline) {
-    const Shell& shell = adult().shell;
+    const Shell& shell = adult_tissue().shell;
     for (const char* id : {"ch_l", "bp_r", "mc_l", "pg", "prn", "g", "ls", "li"}) {
-        const int v = adult().head.welded[rig::adult().vertex(id)];
+        const int v = adult_tissue().head.welded[rig::adult().vertex(id)];
         ASSERT_GE(shell.collapsed_to[v], 0) << id;
         EXPECT_FALSE(shell.fixed[shell.collapsed_to[v]]) << id;
     }
@@ -143,7 +143,7 @@ TEST(Shell, TissueBearsAllOfIt) {
 
 // As when a corner of a nostril has none but tetrahedra that are too thin
 TEST(Shell, WithoutSomeVerticesIsTheRest) {
-    const Tissue& tissue = adult();
+    const Tissue& tissue = adult_tissue();
     const Shell& all = tissue.shell;
     std::vector<char> gone(all.vertex.size(), 0);
     for (const char* id : {"sbal_l", "al_l"}) {
@@ -157,9 +157,9 @@ TEST(Shell, WithoutSomeVerticesIsTheRest) {
 }
 
 TEST(Shell, IsFinestAtLipsAndLids) {
-    const Shell& shell = adult().shell;
+    const Shell& shell = adult_tissue().shell;
     const auto spacing = [&](const char* id) {
-        return shell.spacing_m[adult().head.welded[rig::adult().vertex(id)]];
+        return shell.spacing_m[adult_tissue().head.welded[rig::adult().vertex(id)]];
     };
     EXPECT_LT(spacing("ls"), 0.7 * spacing("mc_l"));
     EXPECT_LT(spacing("ps_l"), 0.7 * spacing("mef"));
@@ -167,9 +167,9 @@ TEST(Shell, IsFinestAtLipsAndLids) {
 
 // Which vertices the lips keep decides how they roll, and a nose that stood out another half millimetre changed it.
 TEST(Shell, LipsKeepTheirVerticesWhateverTheRestNeeds) {
-    const rig::Head& head = adult().head;
+    const rig::Head& head = adult_tissue().head;
     const auto at_lips = [&](int vertices) {
-        const Shell shell = build_shell(head, adult().jaw, adult().lids, {vertices});
+        const Shell shell = build_shell(head, adult_tissue().jaw, adult_tissue().lids, {vertices});
         std::set<int> out;
         for (const int v : shell.vertex)
             if ((head.vertices.row(v).transpose() - head.landmark("sto")).norm() < head.mm(9))
@@ -183,7 +183,7 @@ TEST(Shell, LipsKeepTheirVerticesWhateverTheRestNeeds) {
 }
 
 TEST(Shell, IsItsOwnMirrorImageOnASymmetricHead) {
-    const Shell& shell = adult().shell;
+    const Shell& shell = adult_tissue().shell;
     const int count = static_cast<int>(shell.vertex.size());
     ASSERT_EQ(shell.mirrored.size(), shell.vertex.size());
     const auto reflected = [](Vec3 p) { return Vec3(-p.x(), p.y(), p.z()); };
@@ -192,17 +192,17 @@ TEST(Shell, IsItsOwnMirrorImageOnASymmetricHead) {
         EXPECT_EQ(shell.mirrored[w], v);
         EXPECT_EQ(shell.fixed[v], shell.fixed[w]);
         for (const Layer layer : {kDeep, kMiddle, kSkin})
-            EXPECT_LT((adult().mesh.nodes.row(node_of(v, layer)).transpose() -
-                       reflected(adult().mesh.nodes.row(node_of(w, layer)).transpose()))
+            EXPECT_LT((adult_tissue().mesh.nodes.row(node_of(v, layer)).transpose() -
+                       reflected(adult_tissue().mesh.nodes.row(node_of(w, layer)).transpose()))
                           .norm(),
                       2e-5)
                 << v;
     }
     std::set<std::array<int, 4>> tets, images;
-    for (long t = 0; t < adult().mesh.tets.rows(); ++t) {
+    for (long t = 0; t < adult_tissue().mesh.tets.rows(); ++t) {
         std::array<int, 4> here, there;
         for (int k = 0; k < 4; ++k) {
-            here[k] = adult().mesh.tets(t, k);
+            here[k] = adult_tissue().mesh.tets(t, k);
             there[k] = kLayers * shell.mirrored[here[k] / kLayers] + here[k] % kLayers;
         }
         std::sort(here.begin(), here.end());
@@ -214,39 +214,39 @@ TEST(Shell, IsItsOwnMirrorImageOnASymmetricHead) {
 }
 
 TEST(Shell, AHeadThatIsNotSymmetricHasOneAllTheSame) {
-    rig::Head head = adult().head;
+    rig::Head head = adult_tissue().head;
     for (long v = 0; v < head.vertices.rows(); ++v)
         head.vertices(v, 1) += 1.5e-3 * std::sin(0.1e3 * head.vertices(v, 0));
-    const Shell shell = build_shell(head, adult().jaw, adult().lids, {300});
+    const Shell shell = build_shell(head, adult_tissue().jaw, adult_tissue().lids, {300});
     EXPECT_TRUE(shell.mirrored.empty());
     EXPECT_NEAR(static_cast<double>(shell.vertex.size()), 300, 15);
 }
 
 TEST(Tissue, EveryTetStandsUpright) {
-    EXPECT_GT(smallest_volume(adult().mesh), 0);
-    EXPECT_EQ(adult().mesh.nodes.rows(), 3 * static_cast<long>(adult().shell.vertex.size()));
-    EXPECT_LT(adult().mesh.dropped_tets, adult().mesh.tets.rows() / 50);
+    EXPECT_GT(smallest_volume(adult_tissue().mesh), 0);
+    EXPECT_EQ(adult_tissue().mesh.nodes.rows(), 3 * static_cast<long>(adult_tissue().shell.vertex.size()));
+    EXPECT_LT(adult_tissue().mesh.dropped_tets, adult_tissue().mesh.tets.rows() / 50);
 }
 
 TEST(Tissue, IsAsThickAsTheTablesSay) {
     const auto thickness = [&](const char* id) {
-        const int v = adult().head.welded[rig::adult().vertex(id)];
-        return 1e3 * adult().mesh.thickness_m[adult().shell.collapsed_to[v]];
+        const int v = adult_tissue().head.welded[rig::adult().vertex(id)];
+        return 1e3 * adult_tissue().mesh.thickness_m[adult_tissue().shell.collapsed_to[v]];
     };
     double sum = 0;
-    for (double t : adult().mesh.thickness_m) {
+    for (double t : adult_tissue().mesh.thickness_m) {
         EXPECT_GT(t, 0.3e-3);
         EXPECT_LT(t, 30e-3);
         sum += t;
     }
-    EXPECT_NEAR(1e3 * sum / static_cast<double>(adult().mesh.thickness_m.size()), 8.9, 2.5);
+    EXPECT_NEAR(1e3 * sum / static_cast<double>(adult_tissue().mesh.thickness_m.size()), 8.9, 2.5);
     EXPECT_NEAR(thickness("g"), 5.5, 2);
     EXPECT_NEAR(thickness("mc_l"), 22, 5) << "18 at the mark, 26 three millimetres behind it";
     EXPECT_LT(thickness("ps_l"), 5) << "lids are thin";
 }
 
 TEST(Tissue, LayersLieAboveEachOther) {
-    const TissueMesh& mesh = adult().mesh;
+    const TissueMesh& mesh = adult_tissue().mesh;
     for (std::size_t v = 0; v < mesh.thickness_m.size(); ++v) {
         const auto height = [&](Layer layer) {
             return mesh.nodes.row(node_of(static_cast<int>(v), layer)).dot(mesh.direction[v]);
@@ -259,14 +259,14 @@ TEST(Tissue, LayersLieAboveEachOther) {
 
 TEST(Tissue, IsHeldMostFirmlyWhereItIsBoundToBone) {
     const std::vector<Attachment> held =
-        place_attachments(adult().head, adult().rig, adult().jaw, adult().shell, adult().mesh);
+        place_attachments(adult_tissue().head, adult_tissue().rig, adult_tissue().jaw, adult_tissue().shell, adult_tissue().mesh);
     int free = 0;
-    for (char fixed : adult().shell.fixed) free += !fixed;
+    for (char fixed : adult_tissue().shell.fixed) free += !fixed;
     EXPECT_EQ(static_cast<int>(held.size()), free);
     const auto sliding = [&](const char* id) {
-        const int v = adult().shell.collapsed_to[adult().head.welded[rig::adult().vertex(id)]];
+        const int v = adult_tissue().shell.collapsed_to[adult_tissue().head.welded[rig::adult().vertex(id)]];
         for (const Attachment& a : held)
-            if (a.shell_vertex == v) return a.tangential_n_per_m / adult().mesh.area_m2[v];
+            if (a.shell_vertex == v) return a.tangential_n_per_m / adult_tissue().mesh.area_m2[v];
         return -1.0;
     };
     EXPECT_GT(sliding("n"), 10 * sliding("ls"));
@@ -279,37 +279,37 @@ TEST(Tissue, IsHeldMostFirmlyWhereItIsBoundToBone) {
 }
 
 TEST(Tissue, RestIsFreeOfContactForces) {
-    const ContactSearch search(adult().head, adult().jaw, adult().shell, adult().mesh, adult().lids,
+    const ContactSearch search(adult_tissue().head, adult_tissue().jaw, adult_tissue().shell, adult_tissue().mesh, adult_tissue().lids,
                                5e6);
     const auto pairs =
-        search.find(adult().mesh.nodes, Rigid::Identity(), {Mat3::Identity(), Mat3::Identity()});
-    EXPECT_LT(ContactSearch::deepest(pairs, adult().mesh.nodes), 1e-9);
+        search.find(adult_tissue().mesh.nodes, Rigid::Identity(), {Mat3::Identity(), Mat3::Identity()});
+    EXPECT_LT(ContactSearch::deepest(pairs, adult_tissue().mesh.nodes), 1e-9);
     tissue::Contacts contacts;
     contacts.set(pairs);
-    Points gradient = Points::Zero(adult().mesh.nodes.rows(), 3);
-    contacts.add_energy(adult().mesh.nodes, gradient);
+    Points gradient = Points::Zero(adult_tissue().mesh.nodes.rows(), 3);
+    contacts.add_energy(adult_tissue().mesh.nodes, gradient);
     EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-9);
 }
 
 // Of the adult with bundles alone
 rig::RigDescription all_bundles() {
-    rig::RigDescription rig = adult().rig;
+    rig::RigDescription rig = adult_tissue().rig;
     rig.solids.clear();
     return rig;
 }
 
 TEST(MusclePlacement, EveryMuscleHasFibresOnBothSides) {
     const MusclePlacement placed =
-        place_muscles(adult().head, all_bundles(), adult().shell, adult().mesh);
+        place_muscles(adult_tissue().head, all_bundles(), adult_tissue().shell, adult_tissue().mesh);
     ASSERT_EQ(placed.fibres.size(), placed.paths.size());
-    const track::ChannelTable channels = adult().rig.channels();
+    const track::ChannelTable channels = adult_tissue().rig.channels();
     std::map<int, int> fibres;
     std::map<int, double> force;
     for (const muscle::Fibre& fibre : placed.fibres) {
         ++fibres[fibre.column];
         force[fibre.column] += fibre.f0_n;
     }
-    for (const rig::Muscle& muscle : adult().rig.muscles.muscles) {
+    for (const rig::Muscle& muscle : adult_tissue().rig.muscles.muscles) {
         if (muscle.group != "mimetic") continue;
         const int left = channels.column(muscle.id, Side::kLeft),
                   right = channels.column(muscle.id, Side::kRight);
@@ -321,28 +321,28 @@ TEST(MusclePlacement, EveryMuscleHasFibresOnBothSides) {
 
 TEST(MusclePlacement, ForceIsThatOfTheBandsTimesTheirStrength) {
     const MusclePlacement placed =
-        place_muscles(adult().head, all_bundles(), adult().shell, adult().mesh);
-    const track::ChannelTable channels = adult().rig.channels();
+        place_muscles(adult_tissue().head, all_bundles(), adult_tissue().shell, adult_tissue().mesh);
+    const track::ChannelTable channels = adult_tissue().rig.channels();
     for (const char* id : {"zygomaticus_major", "risorius", "mentalis", "frontalis_medial"}) {
         double placed_n = 0, wanted_n = 0;
         int bands = 0;
         for (const muscle::Fibre& fibre : placed.fibres)
             if (fibre.column == channels.column(id, Side::kLeft)) placed_n += fibre.f0_n;
-        for (const rig::MuscleBand& band : adult().rig.atlas.bands)
+        for (const rig::MuscleBand& band : adult_tissue().rig.atlas.bands)
             if (band.muscle == id) wanted_n += band.force_n * band.strength, ++bands;
-        wanted_n *= adult().rig.tissue.force_scale / bands;
+        wanted_n *= adult_tissue().rig.tissue.force_scale / bands;
         EXPECT_NEAR(placed_n / wanted_n, 1.0, 0.02) << id;
     }
 }
 
 TEST(SkinBinding, CarriesAMovedShellToItsVertices) {
-    const SkinBinding binding(adult().head, adult().jaw, adult().shell);
+    const SkinBinding binding(adult_tissue().head, adult_tissue().jaw, adult_tissue().shell);
     const Vec3 shift(1e-3, -2e-3, 3e-3);
-    Points displacement(static_cast<long>(adult().shell.vertex.size()), 3);
+    Points displacement(static_cast<long>(adult_tissue().shell.vertex.size()), 3);
     displacement.rowwise() = shift.transpose();
-    Points moved = adult().head.vertices;
+    Points moved = adult_tissue().head.vertices;
     binding.apply(displacement, Rigid::Identity(), moved);
-    const Points u = moved - adult().head.vertices;
+    const Points u = moved - adult_tissue().head.vertices;
     for (long v = 0; v < u.rows(); ++v) {
         // No vertex moves further than the shell, none against it.
         const double fraction = u.row(v).dot(shift) / shift.squaredNorm();
@@ -357,13 +357,13 @@ TEST(SkinBinding, CarriesAMovedShellToItsVertices) {
 }
 
 TEST(SkinBinding, CarriesTheLiningOfTheMouthBetweenSkullAndJaw) {
-    const SkinBinding binding(adult().head, adult().jaw, adult().shell);
-    const Rigid mandible = adult().jaw.motion(0.5, 0, 0);
-    Points moved = adult().head.vertices;
-    binding.apply(Points::Zero(static_cast<long>(adult().shell.vertex.size()), 3), mandible, moved);
+    const SkinBinding binding(adult_tissue().head, adult_tissue().jaw, adult_tissue().shell);
+    const Rigid mandible = adult_tissue().jaw.motion(0.5, 0, 0);
+    Points moved = adult_tissue().head.vertices;
+    binding.apply(Points::Zero(static_cast<long>(adult_tissue().shell.vertex.size()), 3), mandible, moved);
     double furthest = 0;
     for (long v = 0; v < moved.rows(); ++v) {
-        const Vec3 rest = adult().head.vertices.row(v).transpose();
+        const Vec3 rest = adult_tissue().head.vertices.row(v).transpose();
         const double way = (mandible * rest - rest).norm();
         const double went = (moved.row(v).transpose() - rest).norm();
         furthest = std::max(furthest, went);

@@ -79,8 +79,7 @@ double Face::step_s() const { return impl_->quality.step_s; }
 const Eigen::VectorXd& Face::activation() const { return impl_->now.activation; }
 
 Eigen::VectorXd Face::activation_at(double t_s) const {
-    const double fraction = impl_->fraction_of_step(t_s);
-    return (1 - fraction) * impl_->before.activation + fraction * impl_->now.activation;
+    return impl_->activation_between(impl_->fraction_of_step(t_s));
 }
 
 const rig::Head& Face::head() const { return impl_->head; }

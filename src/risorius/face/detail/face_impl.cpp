@@ -17,6 +17,8 @@ namespace {
 
 constexpr int kMemory = 6;
 constexpr double kStepCap_m = 6e-3;
+// A drive that bends more than this within two substeps has jumped: of the range of a kinematic channel, and of an activation.
+constexpr double kJump = 0.1, kActivationJump = 0.5;
 
 }  // namespace
 
@@ -51,7 +53,7 @@ FaceImpl::FaceImpl(const rig::RigDescription& rig_description,
     now.x = tissue.rest();
     now.activation = Eigen::VectorXd::Zero(channels.column_count());
     now.drive.excitation = now.activation;
-    before = now;
+    before = earlier = now;
     equilibrium.emplace(
         tissue,
         [this](const Eigen::VectorXd& a, const track::Drive& d) { set_boundary_conditions(a, d); },
@@ -83,10 +85,6 @@ Eigen::VectorXd FaceImpl::steady_activation(const track::Drive& drive) const {
     for (long i = 0; i < drive.activation.size(); ++i)
         if (!std::isnan(drive.activation[i])) activation[i] = drive.activation[i];
     return activation;
-}
-
-JawVector FaceImpl::jaw_between(double fraction) const {
-    return (1 - fraction) * before.jaw.q + fraction * now.jaw.q;
 }
 
 Vec3 FaceImpl::gravity_at(const track::Drive& drive) const {
@@ -132,7 +130,7 @@ StepStats FaceImpl::solve_equilibrium(const Eigen::VectorXd& activation, const t
     now.drive = drive;
     last_move.resize(0, 3);
     motion.start(now.x, head_motion(head, drive));
-    before = now;
+    before = earlier = now;
     in_step = false;
     return figures;
 }
@@ -157,6 +155,7 @@ StepStats FaceImpl::substep(const DriveAt& drive_at) {
         drive.activation, from, to);
     const Eigen::VectorXd activation = dynamics->activation();
 
+    earlier = std::move(before);
     before = now;
     Points x = now.x;
     const TissueMotion::Step& moves = motion.begin(head_motion(head, drive));
@@ -194,11 +193,29 @@ StepStats FaceImpl::substep(const DriveAt& drive_at) {
     return figures;
 }
 
-track::Drive FaceImpl::drive_between(double fraction) const {
+bool FaceImpl::jumped() const {
+    const auto bend = [](double e, double b, double n) { return std::abs(n - 2 * b + e); };
+    const auto& channel = track::kinematic_channels();
+    for (std::size_t k = 0; k < channel.size(); ++k)
+        if (bend(earlier.drive.kinematic[k], before.drive.kinematic[k], now.drive.kinematic[k]) >
+            kJump * (channel[k].max - channel[k].min))
+            return true;
+    return ((now.activation - 2 * before.activation + earlier.activation).array().abs() >
+            kActivationJump)
+        .any();
+}
+
+StateWeights FaceImpl::weights(double fraction) const {
+    return jumped() ? straight(fraction) : smooth(fraction);
+}
+
+track::Drive FaceImpl::drive_between(const StateWeights& w) const {
     track::Drive drive = now.drive;
+    const auto& channel = track::kinematic_channels();
     for (std::size_t k = 0; k < drive.kinematic.size(); ++k)
-        drive.kinematic[k] =
-            (1 - fraction) * before.drive.kinematic[k] + fraction * now.drive.kinematic[k];
+        drive.kinematic[k] = std::clamp(
+            w.of(earlier.drive.kinematic[k], before.drive.kinematic[k], now.drive.kinematic[k]),
+            channel[k].min, channel[k].max);
     return drive;
 }
 
@@ -229,10 +246,18 @@ Points FaceImpl::muscle_vertices(double fraction) {
 }
 
 FaceImpl::State FaceImpl::between(double fraction) const {
-    return {(1 - fraction) * before.x + fraction * now.x,
-            (1 - fraction) * before.activation + fraction * now.activation,
-            drive_between(fraction),
-            {.q = jaw_between(fraction)}};
+    const StateWeights w = weights(fraction);
+    return {w.of(earlier.x, before.x, now.x),
+            activation_between(fraction),
+            drive_between(w),
+            {.q = w.of(earlier.jaw.q, before.jaw.q, now.jaw.q)}};
+}
+
+Eigen::VectorXd FaceImpl::activation_between(double fraction) const {
+    return weights(fraction)
+        .of(earlier.activation, before.activation, now.activation)
+        .cwiseMax(channels.column_min())
+        .cwiseMin(1.0);
 }
 
 Points FaceImpl::shown(const State& state) const {
@@ -284,7 +309,7 @@ void FaceImpl::start(const DriveAt& drive) {
         now.drive = first;
         Points x = now.x;  // a face used before may have left its jaw elsewhere
         set_boundary_conditions(x, activation, first);
-        before = now;
+        before = earlier = now;
         in_step = false;
     } else {
         solve_equilibrium(activation, first, {.iterations = kRestIterations});

@@ -17,6 +17,7 @@
 #include "risorius/face/face.h"
 #include "risorius/face/muscle/detail/muscle_surface.h"
 #include "risorius/face/skin/detail/face_poser.h"
+#include "risorius/face/solver/detail/between_steps.h"
 #include "risorius/face/solver/detail/driven_jaw.h"
 #include "risorius/face/solver/detail/equilibrium.h"
 #include "risorius/face/solver/detail/face_tissue.h"
@@ -50,8 +51,9 @@ struct FaceImpl {
     FaceTissue tissue;
     std::optional<FacePoser> poser;
 
-    /// The states after the last substep and after the one before it. Poses between them are interpolated.
-    State now, before;
+    /// The states after the last substep, after the one before it, and after the one before that. Poses between the last two are
+    /// interpolated.
+    State now, before, earlier;
     std::optional<Equilibrium> equilibrium;
     DrivenJaw driven_jaw;
     bool went_back = false;  ///< the last substep reversed the move of the one before
@@ -100,8 +102,11 @@ struct FaceImpl {
     double substeps_until(double t_s) const;
     /// Returns where t_s lies between the last two substeps, 0..1.
     double fraction_of_step(double t_s) const;
-    /// Interpolates between the last two substeps. Drives are interpolated; bones and lids follow from the interpolated drive.
+    /// Interpolates between the last two substeps. Drives are interpolated; bones and lids follow from the interpolated drive. The
+    /// curve is smooth, but straight after a jump of the drive, where a smooth one would overshoot.
     State between(double fraction) const;
+    /// Returns the activation of `between(fraction)`, per column.
+    Eigen::VectorXd activation_between(double fraction) const;
     /// Returns the nodes as they are shown, n x 3, m: penetrations that a substep has left are resolved. Equilibria hardly have any.
     Points shown(const State& state) const;
     FacePose pose(double fraction) const;
@@ -112,8 +117,9 @@ struct FaceImpl {
 
   private:
     int iterations() const;
-    track::Drive drive_between(double fraction) const;
-    JawVector jaw_between(double fraction) const;
+    bool jumped() const;  ///< the drive has jumped in one of the last two substeps
+    StateWeights weights(double fraction) const;
+    track::Drive drive_between(const StateWeights& weights) const;
 };
 
 }  // namespace risorius::face
