@@ -56,7 +56,8 @@ double smallest_volume(const TissueMesh& mesh) {
 
 TEST(Shell, HasAboutAsManyVerticesAsAskedFor) {
     EXPECT_NEAR(static_cast<double>(adult_tissue().shell.vertex.size()), 800, 40);
-    const Shell fine = build_shell(adult_tissue().head, adult_tissue().jaw, adult_tissue().lids, {1700});
+    const Shell fine =
+        build_shell(adult_tissue().head, adult_tissue().jaw, adult_tissue().lids, {1700});
     EXPECT_NEAR(static_cast<double>(fine.vertex.size()), 1700, 85);
 }
 
@@ -76,7 +77,9 @@ TEST(Shell, FacesOutwards) {
     int leaning = 0;
     for (long f = 0; f < shell.triangles.rows(); ++f) {
         const auto p = [&](int k) -> Vec3 {
-            return adult_tissue().head.vertices.row(shell.vertex[shell.triangles(f, k)]).transpose();
+            return adult_tissue()
+                .head.vertices.row(shell.vertex[shell.triangles(f, k)])
+                .transpose();
         };
         const Vec3 n = (p(1) - p(0)).cross(p(2) - p(0)).normalized();
         Vec3 d = Vec3::Zero();
@@ -224,7 +227,8 @@ TEST(Shell, AHeadThatIsNotSymmetricHasOneAllTheSame) {
 
 TEST(Tissue, EveryTetStandsUpright) {
     EXPECT_GT(smallest_volume(adult_tissue().mesh), 0);
-    EXPECT_EQ(adult_tissue().mesh.nodes.rows(), 3 * static_cast<long>(adult_tissue().shell.vertex.size()));
+    EXPECT_EQ(adult_tissue().mesh.nodes.rows(),
+              3 * static_cast<long>(adult_tissue().shell.vertex.size()));
     EXPECT_LT(adult_tissue().mesh.dropped_tets, adult_tissue().mesh.tets.rows() / 50);
 }
 
@@ -259,12 +263,14 @@ TEST(Tissue, LayersLieAboveEachOther) {
 
 TEST(Tissue, IsHeldMostFirmlyWhereItIsBoundToBone) {
     const std::vector<Attachment> held =
-        place_attachments(adult_tissue().head, adult_tissue().rig, adult_tissue().jaw, adult_tissue().shell, adult_tissue().mesh);
+        place_attachments(adult_tissue().head, adult_tissue().rig, adult_tissue().jaw,
+                          adult_tissue().shell, adult_tissue().mesh);
     int free = 0;
     for (char fixed : adult_tissue().shell.fixed) free += !fixed;
     EXPECT_EQ(static_cast<int>(held.size()), free);
     const auto sliding = [&](const char* id) {
-        const int v = adult_tissue().shell.collapsed_to[adult_tissue().head.welded[rig::adult().vertex(id)]];
+        const int v =
+            adult_tissue().shell.collapsed_to[adult_tissue().head.welded[rig::adult().vertex(id)]];
         for (const Attachment& a : held)
             if (a.shell_vertex == v) return a.tangential_n_per_m / adult_tissue().mesh.area_m2[v];
         return -1.0;
@@ -279,10 +285,10 @@ TEST(Tissue, IsHeldMostFirmlyWhereItIsBoundToBone) {
 }
 
 TEST(Tissue, RestIsFreeOfContactForces) {
-    const ContactSearch search(adult_tissue().head, adult_tissue().jaw, adult_tissue().shell, adult_tissue().mesh, adult_tissue().lids,
-                               5e6);
-    const auto pairs =
-        search.find(adult_tissue().mesh.nodes, Rigid::Identity(), {Mat3::Identity(), Mat3::Identity()});
+    const ContactSearch search(adult_tissue().head, adult_tissue().jaw, adult_tissue().shell,
+                               adult_tissue().mesh, adult_tissue().lids, 5e6);
+    const auto pairs = search.find(adult_tissue().mesh.nodes, Rigid::Identity(),
+                                   {Mat3::Identity(), Mat3::Identity()});
     EXPECT_LT(ContactSearch::deepest(pairs, adult_tissue().mesh.nodes), 1e-9);
     tissue::Contacts contacts;
     contacts.set(pairs);
@@ -299,8 +305,8 @@ rig::RigDescription all_bundles() {
 }
 
 TEST(MusclePlacement, EveryMuscleHasFibresOnBothSides) {
-    const MusclePlacement placed =
-        place_muscles(adult_tissue().head, all_bundles(), adult_tissue().shell, adult_tissue().mesh);
+    const MusclePlacement placed = place_muscles(adult_tissue().head, all_bundles(),
+                                                 adult_tissue().shell, adult_tissue().mesh);
     ASSERT_EQ(placed.fibres.size(), placed.paths.size());
     const track::ChannelTable channels = adult_tissue().rig.channels();
     std::map<int, int> fibres;
@@ -320,8 +326,8 @@ TEST(MusclePlacement, EveryMuscleHasFibresOnBothSides) {
 }
 
 TEST(MusclePlacement, ForceIsThatOfTheBandsTimesTheirStrength) {
-    const MusclePlacement placed =
-        place_muscles(adult_tissue().head, all_bundles(), adult_tissue().shell, adult_tissue().mesh);
+    const MusclePlacement placed = place_muscles(adult_tissue().head, all_bundles(),
+                                                 adult_tissue().shell, adult_tissue().mesh);
     const track::ChannelTable channels = adult_tissue().rig.channels();
     for (const char* id : {"zygomaticus_major", "risorius", "mentalis", "frontalis_medial"}) {
         double placed_n = 0, wanted_n = 0;
@@ -360,7 +366,8 @@ TEST(SkinBinding, CarriesTheLiningOfTheMouthBetweenSkullAndJaw) {
     const SkinBinding binding(adult_tissue().head, adult_tissue().jaw, adult_tissue().shell);
     const Rigid mandible = adult_tissue().jaw.motion(0.5, 0, 0);
     Points moved = adult_tissue().head.vertices;
-    binding.apply(Points::Zero(static_cast<long>(adult_tissue().shell.vertex.size()), 3), mandible, moved);
+    binding.apply(Points::Zero(static_cast<long>(adult_tissue().shell.vertex.size()), 3), mandible,
+                  moved);
     double furthest = 0;
     for (long v = 0; v < moved.rows(); ++v) {
         const Vec3 rest = adult_tissue().head.vertices.row(v).transpose();

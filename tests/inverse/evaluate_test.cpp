@@ -239,7 +239,7 @@ TEST(Evaluation, SaysWhichExpressionsTheRigWasCalibratedOn) {
 
 TEST(ReadUnits, TheAdultsUnitsGoAsFarAndAsEvenlyAsTheTableAsks) {
     const UnitReadings readings =
-        read_units(kRoot / "rigs/adult/rig.json", {"AU4", "AU12"}, "preview");
+        read_units({.rig = kRoot / "rigs/adult/rig.json", .only = {"AU4", "AU12"}});
     EXPECT_NEAR(readings.neutral.lid_aperture, 10.3, 0.5);
     ASSERT_EQ(readings.units.size(), 2u);
     for (const scene::UnitReading& unit : readings.units) {
@@ -253,9 +253,10 @@ TEST(ReadUnits, TheAdultsUnitsGoAsFarAndAsEvenlyAsTheTableAsks) {
         EXPECT_TRUE(unit.in_equilibrium) << unit.unit;
     }
     EXPECT_GT(readings.units[1].change.corner_height, 8);
-    EXPECT_EQ(message_of([] { read_units(kRoot / "rigs/adult/rig.json", {"AU99"}, "preview"); }),
-              (kRoot / "rigs/adult/rig.json").string() +
-                  ": expected an action unit with landmark targets, found \"AU99\"");
+    EXPECT_EQ(
+        message_of([] { read_units({.rig = kRoot / "rigs/adult/rig.json", .only = {"AU99"}}); }),
+        (kRoot / "rigs/adult/rig.json").string() +
+            ": expected an action unit with landmark targets, found \"AU99\"");
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// risorius evaluate RIG --shapes FILE [--fit] [-o DIR], evaluate RIG --like RIG, evaluate RIG --facs
+// risorius evaluate RIG --shapes FILE [--fit] [-o DIR], evaluate RIG --like RIG, evaluate RIG --facs [-o DIR [--kit]]
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
+#include "risorius/inverse/code_agreement.h"
 #include "risorius/inverse/compare_heads.h"
 #include "risorius/inverse/evaluate.h"
 #include "risorius/inverse/read_units.h"
@@ -20,6 +21,8 @@ struct EvaluateArguments {
     inverse::EvaluateOptions options;
     std::filesystem::path like;
     bool facs = false;
+    inverse::UnitOptions units;
+    std::filesystem::path codes, key;
     bool no_pictures = false;
 };
 
@@ -118,17 +121,51 @@ void print(const inverse::UnitReadings& readings) {
         "mm\n");
 }
 
+void print(const inverse::Agreement& agreement) {
+    std::printf("%d clips; index of agreement %.2f\n", agreement.clips, agreement.index);
+    std::printf("  %-6s %6s %6s %12s %6s %18s\n", "", "shown", "seen", "falsely seen", "kappa",
+                "intensity within 1");
+    for (const inverse::UnitAgreement& one : agreement.units) {
+        std::printf("  AU%-4d %6d %6d %12d %6.2f ", one.unit, one.shown, one.seen, one.falsely_seen,
+                    one.kappa);
+        if (one.levels > 0) std::printf("%11d of %d", one.levels_within_1, one.levels);
+        std::printf("\n");
+    }
+    std::printf(
+        "  seen: clips that show the unit and in which it was coded; falsely seen: coded, but not "
+        "shown; kappa: 0 by\n  chance, 1 at best; index: twice the agreed units / all units that "
+        "were shown and coded\n");
+}
+
+void compare_codes(EvaluateArguments& arguments) {
+    if (arguments.key.empty()) throw Error("evaluate", "--key FILE with --codes", "none");
+    const inverse::Agreement agreement = inverse::code_agreement(arguments.codes, arguments.key);
+    if (arguments.common.json)
+        std::printf("%s\n", json_text(agreement.json(), 2).c_str());
+    else if (!arguments.common.quiet)
+        print(agreement);
+}
+
 void read_units(EvaluateArguments& arguments) {
+    if (!arguments.codes.empty()) return compare_codes(arguments);
+    inverse::UnitOptions& options = arguments.units;
+    options.rig = arguments.options.rig;
+    options.out = arguments.options.out;
+    options.only = arguments.options.only;
+    options.quality = arguments.options.quality;
+    options.pictures = !arguments.no_pictures;
     inverse::UnitReadings readings;
     {
         ProgressBar bar(arguments.common);
-        readings = inverse::read_units(arguments.options.rig, arguments.options.only,
-                                       arguments.options.quality, bar.monitor());
+        readings = inverse::read_units(options, bar.monitor());
     }
     if (arguments.common.json)
         std::printf("%s\n", json_text(readings.json(), 2).c_str());
-    else if (!arguments.common.quiet)
+    else if (!arguments.common.quiet) {
         print(readings);
+        if (!options.out.empty())
+            std::printf("report: %s\n", (options.out / "index.html").generic_string().c_str());
+    }
 }
 
 void run(EvaluateArguments& arguments) {
@@ -166,6 +203,17 @@ void add_evaluate(CLI::App& app) {
     command->add_flag("--facs", arguments->facs,
                       "Instead of --shapes: read the action units of RIG as a coder measures them: "
                       "landmarks against the targets of its table, eye opening, mouth");
+    command->add_flag("--kit", arguments->units.kit,
+                      "With --facs and --out: also make a kit for coders, clips without names that "
+                      "show units and combinations in a random order, a sheet to fill in, and the "
+                      "key to it");
+    command
+        ->add_option("--seed", arguments->units.seed, "The order of the clips of the kit, a number")
+        ->capture_default_str();
+    command->add_option("--codes", arguments->codes,
+                        "With --facs: the sheet of a kit that a coder has filled in; prints how "
+                        "well it agrees with what was shown");
+    command->add_option("--key", arguments->key, "With --codes: the file key.tsv of the kit");
     command->add_option("-o,--out", options.out,
                         "The folder of the report: index.html, contact sheets, pictures, "
                         "results.json, scores.tsv. Without it, numbers are only printed");
@@ -195,7 +243,9 @@ void add_evaluate(CLI::App& app) {
         "  risorius evaluate anna/rig.json --shapes anna/expressions.json --fit --only "
         "mouthSmile,jawOpen -o out/fit\n"
         "  risorius evaluate anna/rig.json --like rigs/adult/rig.json\n"
-        "  risorius evaluate anna/rig.json --facs --only AU6,AU12");
+        "  risorius evaluate anna/rig.json --facs --only AU6,AU12\n"
+        "  risorius evaluate anna/rig.json --facs --kit -o out/units\n"
+        "  risorius evaluate anna/rig.json --facs --codes sheet.tsv --key out/units/key.tsv");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -26,28 +26,29 @@ double along(const std::vector<LandmarkReading>& landmarks) {
 UnitReader::UnitReader(face::Face& face, const rig::RigDescription& rig)
     : face_(face), rig_(rig), points_(face.head(), rig), channels_(rig.channels()) {
     rest_.excitation = Eigen::VectorXd::Zero(channels_.column_count());
-    neutral_ = pose(track::Expansion::none(channels_)).vertices;
+    neutral_ = pose(track::Expansion::none(channels_)).pose;
 }
 
 FaceLengths UnitReader::lengths(const Points& vertices) const {
     const auto y = [&](const char* id) { return points_.at(id, vertices).y(); };
-    const auto rest_y = [&](const char* id) { return points_.at(id, neutral_).y(); };
+    const auto rest_y = [&](const char* id) { return points_.at(id, neutral()).y(); };
     return {1e3 * points_.distance("ps_l", "pi_l", vertices),
             1e3 * points_.distance("ch_l", "ch_r", vertices), 1e3 * (y("stos") - y("stoi")),
             500 * (y("ch_l") - rest_y("ch_l") + y("ch_r") - rest_y("ch_r"))};
 }
 
 UnitReading UnitReader::read(const track::ActionUnit& unit) {
-    UnitReading out{unit.id, unit.name, targets(unit), 0, {}, {}, true};
+    UnitReading out{unit.id, unit.name, targets(unit), 0, {}, {}, true, {}};
     const track::Expansion whole = track::expand(unit, std::nullopt, channels_);
     const Pose full = pose(whole);
     out.in_equilibrium = full.in_equilibrium;
+    out.pose = full.pose;
     for (LandmarkReading& one : out.landmarks) {
-        one.moved_mm = moved_mm(one.landmark, full.vertices);
+        one.moved_mm = moved_mm(one.landmark, full.pose.vertices);
         one.gain = one.moved_mm.dot(one.target_mm) / one.target_mm.squaredNorm();
     }
     out.gain = along(out.landmarks);
-    const FaceLengths now = lengths(full.vertices), rest = lengths(neutral_);
+    const FaceLengths now = lengths(full.pose.vertices), rest = lengths(neutral());
     out.change = {now.lid_aperture - rest.lid_aperture, now.mouth_width - rest.mouth_width,
                   now.lip_gap - rest.lip_gap, now.corner_height - rest.corner_height};
     for (std::size_t i = 0; i < kIntensities.size(); ++i) {
@@ -61,7 +62,8 @@ UnitReading UnitReader::read(const track::ActionUnit& unit) {
 double UnitReader::gain(const track::ActionUnit& unit, const track::Expansion& sum) {
     const Pose posed = pose(sum);
     std::vector<LandmarkReading> landmarks = targets(unit);
-    for (LandmarkReading& one : landmarks) one.moved_mm = moved_mm(one.landmark, posed.vertices);
+    for (LandmarkReading& one : landmarks)
+        one.moved_mm = moved_mm(one.landmark, posed.pose.vertices);
     return along(landmarks);
 }
 
@@ -71,7 +73,7 @@ UnitReader::Pose UnitReader::pose(const track::Expansion& sum) {
     const bool converged =
         face_.solve_equilibrium(drive.excitation, drive, {.iterations = face::kRestIterations})
             .converged;
-    return {face_.pose().vertices, converged};
+    return {face_.pose(), converged};
 }
 
 std::vector<LandmarkReading> UnitReader::targets(const track::ActionUnit& unit) const {
@@ -83,7 +85,7 @@ std::vector<LandmarkReading> UnitReader::targets(const track::ActionUnit& unit) 
 
 Vec3 UnitReader::moved_mm(const std::string& landmark, const Points& vertices) const {
     const std::string id = side_of(landmark);
-    return 1e3 * (points_.at(id, vertices) - points_.at(id, neutral_));
+    return 1e3 * (points_.at(id, vertices) - points_.at(id, neutral()));
 }
 
 // The name of a landmark of the table with its side, the left one.

@@ -47,6 +47,7 @@ struct UnitReading {
     std::array<double, 3> response{};
     FaceLengths change;  ///< from the neutral face, at intensity 1
     bool in_equilibrium = true;
+    face::FacePose pose;  ///< at intensity 1
 };
 
 /// Reads the units of one face. The face is left in the last pose.
@@ -55,7 +56,8 @@ class UnitReader {
     /// Both must outlive this object.
     UnitReader(face::Face& face, const rig::RigDescription& rig);
 
-    const Points& neutral() const { return neutral_; }
+    const Points& neutral() const { return neutral_.vertices; }  ///< V x 3, m
+    const face::FacePose& neutral_pose() const { return neutral_; }
     FaceLengths lengths(const Points& vertices) const;
     /// Reads the unit at full intensity and at a quarter, a half and three quarters. It needs landmark targets.
     UnitReading read(const track::ActionUnit& unit);
@@ -64,7 +66,7 @@ class UnitReader {
 
   private:
     struct Pose {
-        Points vertices;
+        face::FacePose pose;
         bool in_equilibrium;
     };
     Pose pose(const track::Expansion& sum);
@@ -80,7 +82,7 @@ class UnitReader {
     LandmarkPoints points_;
     track::ChannelTable channels_;
     track::Drive rest_;
-    Points neutral_;
+    face::FacePose neutral_;
 };
 
 }  // namespace risorius::scene

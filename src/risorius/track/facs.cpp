@@ -77,7 +77,8 @@ void read_eyes(const JsonCursor& json, KinematicValues& values) {
 ActionUnit read_unit(const JsonCursor& json, const std::string& id, const FacsRanges& ranges,
                      const ChannelTable& channels) {
     json.allow_keys({"name", "sided", "muscles", "jaw", "mouth_pressure_pa", "tongue_protrusion_mm",
-                     "head", "eyes", "unsupported", "landmark_targets_mm", "activation_at"});
+                     "head", "eyes", "unsupported", "landmark_targets_mm", "activation_at",
+                     "cues"});
     ActionUnit unit;
     unit.id = id;
     unit.name = json.at("name").string();
@@ -96,6 +97,7 @@ ActionUnit read_unit(const JsonCursor& json, const std::string& id, const FacsRa
     if (const auto v = json.find("eyes")) read_eyes(*v, unit.kinematic);
     if (const auto v = json.find("activation_at")) unit.curve = read_intensity_curve(*v);
     if (const auto v = json.find("unsupported")) unit.unsupported = v->string();
+    if (const auto v = json.find("cues")) unit.cues = v->string();
     if (const auto v = json.find("landmark_targets_mm"))
         for (const std::string& landmark : v->keys())
             unit.landmark_targets_mm.emplace_back(landmark, v->at(landmark).vec3());
@@ -204,7 +206,7 @@ UnitUse unit_named(const JsonCursor& place, const std::string& name, const FacsT
 }
 
 FacsTable read_facs(const JsonCursor& json, const ChannelTable& channels) {
-    json.allow_keys({"source", "ranges", "action_units", "arkit", "visemes"});
+    json.allow_keys({"source", "ranges", "action_units", "arkit", "visemes", "combinations"});
     FacsTable facs;
     if (const auto ranges = json.find("ranges")) {
         ranges->allow_keys({"jaw_forward_mm", "jaw_side_mm", "tongue_out_mm"});
@@ -218,6 +220,15 @@ FacsTable read_facs(const JsonCursor& json, const ChannelTable& channels) {
     const JsonCursor units = json.at("action_units");
     for (const std::string& id : units.keys())
         facs.units.push_back(read_unit(units.at(id), id, facs.ranges, channels));
+    if (const auto combinations = json.find("combinations"))
+        for (const JsonCursor& list : combinations->items()) {
+            facs.combinations.emplace_back();
+            for (const JsonCursor& unit : list.items()) {
+                if (!facs.find(unit.string())) unit.fail("an action unit of this table");
+                facs.combinations.back().push_back(unit.string());
+            }
+            if (facs.combinations.back().size() < 2) list.fail("two units or more");
+        }
     if (const auto arkit = json.find("arkit"))
         for (const std::string& name : arkit->keys())
             facs.arkit.push_back(read_arkit_shape(arkit->at(name), name, facs, channels));

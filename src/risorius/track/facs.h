@@ -15,8 +15,8 @@
 
 #include "risorius/core/json_cursor.h"
 #include "risorius/track/channels.h"
+#include "risorius/track/detail/manner.h"
 #include "risorius/track/intensity_curve.h"
-#include "risorius/track/manner.h"
 
 namespace risorius::track {
 
@@ -43,6 +43,7 @@ struct ActionUnit {
     KinematicValues kinematic{};
     IntensityCurve curve;     ///< from the intensity to the activation of its muscles
     std::string unsupported;  ///< why this face cannot show the unit; empty when it can
+    std::string cues;         ///< what a coder looks for, in sentences; empty in older tables
     /// Displacements that the unit should cause: a landmark on the left side or the midline, and its displacement.
     std::vector<std::pair<std::string, Vec3>> landmark_targets_mm;
 };
@@ -75,6 +76,7 @@ struct FacsRanges {
 struct FacsTable {
     FacsRanges ranges;
     std::vector<ActionUnit> units;
+    std::vector<std::vector<std::string>> combinations;  ///< units that often occur together
     std::vector<ArkitShape> arkit;
     std::vector<ArkitShape> visemes;                      ///< empty in rigs of older versions
     const ActionUnit* find(const std::string& id) const;  ///< null when unknown

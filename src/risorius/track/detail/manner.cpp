@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/track/manner.h"
+#include "risorius/track/detail/manner.h"
 
 #include <algorithm>
 
@@ -20,8 +20,8 @@ ExpressionTimes Manner::times(const std::string& expression, const ExpressionTim
         return {std::min(60.0, factor.onset_s * usual.onset_s),
                 std::min(3600.0, factor.hold_s * usual.hold_s),
                 std::min(60.0, factor.offset_s * usual.offset_s)};
-    for (const auto& [name, times] : listed)
-        if (name == expression) return times;
+    for (const auto& [other, own] : listed)
+        if (other == expression) return own;
     return others;
 }
 
