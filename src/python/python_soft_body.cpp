@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "python/python_soft_body.h"
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "python/python_values.h"
+#include "risorius/core/error.h"
+#include "risorius/softbody/body_description.h"
+#include "risorius/softbody/soft_body.h"
+#include "risorius/solve/integrator.h"
+
+namespace py = pybind11;
+
+namespace risorius::python {
+
+namespace {
+
+const std::map<std::string, solve::Method>& methods() {
+    static const std::map<std::string, solve::Method> kMethods{
+        {"euler", solve::Method::kEuler},
+        {"verlet", solve::Method::kVerlet},
+        {"runge_kutta_4", solve::Method::kRungeKutta4},
+        {"implicit_euler", solve::Method::kImplicitEuler},
+        {"quasi_static", solve::Method::kQuasiStatic}};
+    return kMethods;
+}
+
+class PythonSoftBody {
+  public:
+    PythonSoftBody(const py::dict& description, const std::string& method, double step_s)
+        : body_(softbody::build_body(
+              softbody::read_body(JsonCursor::from_json(json_of(description), "body")))),
+          state_(body_.start()) {
+        const auto found = methods().find(method);
+        if (found == methods().end()) {
+            std::string expected = "one of";
+            for (const auto& [name, value] : methods()) expected += " \"" + name + "\"";
+            throw Error("method", expected, "\"" + method + "\"");
+        }
+        if (!(step_s > 0)) throw Error("step_s", "more than 0 s", format_number(step_s));
+        integrator_ = solve::make_integrator(
+            {.method = found->second, .step_s = step_s, .length_scale_m = body_.length_scale_m});
+    }
+
+    void advance(double t_s) {
+        if (!(t_s >= state_.t_s))
+            throw Error("t_s", "a time from " + format_number(state_.t_s) + " s on",
+                        format_number(t_s));
+        integrator_->advance(body_.system, state_, t_s);
+    }
+
+    const softbody::SoftBody& body() const { return body_; }
+    const solve::MotionState& state() const { return state_; }
+
+  private:
+    softbody::SoftBody body_;
+    solve::MotionState state_;
+    std::unique_ptr<solve::Integrator> integrator_;
+};
+
+}  // namespace
+
+void add_soft_body(py::module_& module) {
+    py::class_<PythonSoftBody>(
+        module, "SoftBody",
+        "A soft solid, surface or curve of the thesis.\n\n"
+        "body: a dict as \"body\" of an experiment file\n"
+        "method: euler, verlet, runge_kutta_4, implicit_euler or quasi_static")
+        .def(py::init<const py::dict&, const std::string&, double>(), py::arg("body"),
+             py::arg("method") = "implicit_euler", py::arg("step_s") = 1.0 / 60)
+        .def("advance", &PythonSoftBody::advance, py::arg("t_s"),
+             py::call_guard<py::gil_scoped_release>(), "Advances to the time t_s, s.")
+        .def_property_readonly(
+            "time_s", [](const PythonSoftBody& self) { return self.state().t_s; }, "Time, s.")
+        .def_property_readonly(
+            "nodes",
+            [](const py::object& self) {
+                const Points& x = self.cast<const PythonSoftBody&>().state().x;
+                return Points(x);
+            },
+            "Positions of the nodes, N x 3, m, a copy.")
+        .def_property_readonly(
+            "rest", [](const PythonSoftBody& self) { return self.body().rest; },
+            "Positions at rest, N x 3, m, a copy.")
+        .def_property_readonly(
+            "surface", [](const PythonSoftBody& self) { return self.body().surface; },
+            "Triangles of the boundary, F x 3 node indices, a copy.")
+        .def_property_readonly(
+            "grid",
+            [](const PythonSoftBody& self) {
+                return std::array<int, 3>{self.body().grid.m, self.body().grid.n,
+                                          self.body().grid.o};
+            },
+            "Number of nodes along each material axis.")
+        .def_property_readonly(
+            "volume_m3",
+            [](const PythonSoftBody& self) { return self.body().volume(self.state().x); },
+            "Volume of a solid, m^3.")
+        .def_property_readonly(
+            "energy_j",
+            [](const PythonSoftBody& self) {
+                return self.body().system.energy(self.state().t_s, self.state().x);
+            },
+            "Potential energy, J.");
+}
+
+}  // namespace risorius::python

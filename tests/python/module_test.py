@@ -1,0 +1,214 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The Python module: numbers of the library, arrays without copies, errors, samples and the wheel.
+
+    module_test.py FOLDER_OF_THE_MODULE FOLDER_OF_THE_SOURCES
+"""
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+import zipfile
+
+MODULE, SOURCES = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+sys.path.insert(0, str(MODULE))
+os.environ["RISORIUS_DATA"] = str(SOURCES)
+
+import numpy as np  # noqa: E402
+
+import risorius  # noqa: E402
+
+
+class FaceTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.face = risorius.Face()
+
+    def setUp(self):
+        self.face.reset()
+
+    def test_a_smile_raises_the_corners_alike(self):
+        rest = {side: self.face.landmark("ch_" + side) for side in "lr"}
+        self.assertTrue(self.face.settle({"AU12": 1}))
+        moved = {side: 1e3 * (self.face.landmark("ch_" + side) - rest[side]) for side in "lr"}
+        self.assertGreater(moved["l"][1], 8)
+        self.assertLess(np.abs(moved["l"] - moved["r"] * [-1, 1, 1]).max(), 0.7)
+
+    def test_names_add_up_and_intensities_are_seen_shares(self):
+        rest = self.face.landmark("ch_l")
+        way = []
+        for intensity in (0.5, 1):
+            self.face.settle({"AU12": intensity})
+            way.append(np.linalg.norm(self.face.landmark("ch_l") - rest))
+        self.assertAlmostEqual(way[0] / way[1], 0.5, delta=0.06)
+        self.face.settle({"jaw_open": 0.5, "AU12.r": 1})
+        self.assertLess(np.linalg.norm((self.face.landmark("ch_l") - rest)[:2]), 12e-3)
+        self.assertEqual(self.face.activation[self.face.columns.index("zygomaticus_major.l")], 0)
+        self.assertGreater(self.face.activation[self.face.columns.index("zygomaticus_major.r")], 0.2)
+
+    def test_arrays_look_at_the_memory_of_the_face(self):
+        for name, columns in (("vertices", 3), ("rest_vertices", 3), ("nodes", 3), ("tets", 4), ("triangles", 3)):
+            array = getattr(self.face, name)
+            self.assertEqual(array.shape[1], columns, name)
+            self.assertFalse(array.flags.owndata, name)
+            self.assertFalse(array.flags.writeable, name)
+        vertices, nodes, activation = self.face.vertices, self.face.nodes, self.face.activation
+        before = vertices.copy(), nodes.copy()
+        self.face.step({"jaw_open": 0.3, "AU12": 1}, 10)
+        self.assertGreater(np.abs(vertices - before[0]).max(), 3e-3)
+        self.assertGreater(np.abs(nodes - before[1]).max(), 3e-3)
+        self.assertGreater(activation.max(), 0.1)
+        self.assertTrue(np.array_equal(vertices, self.face.vertices))
+
+    def test_an_array_keeps_its_face_alive(self):
+        vertices = risorius.Face(quality="draft").vertices
+        self.assertTrue(np.isfinite(vertices).all())
+
+    def test_steps_are_those_of_the_time_and_repeat_to_the_bit(self):
+        paths = []
+        for _ in range(2):
+            self.face.reset()
+            self.face.step({"AU1": 1}, 30)
+            paths.append(self.face.vertices.copy())
+        self.assertAlmostEqual(self.face.time_s, 0.5, places=9)
+        self.assertTrue(np.array_equal(*paths))
+
+    def test_sensitivities_are_derivatives(self):
+        name, step = "zygomaticus_major.l", 0.01
+        self.face.settle({name: 0.3})
+        slope = self.face.sensitivities([name, "jaw_open"])
+        self.assertEqual(slope.shape, (2,) + self.face.vertices.shape)
+        ends = []
+        for value in (0.3 - step, 0.3 + step):
+            self.face.settle({name: value})
+            ends.append(self.face.vertices.copy())
+        difference = (ends[1] - ends[0]) / (2 * step)
+        self.assertLess(np.abs(slope[0] - difference).max(), 0.1 * np.abs(difference).max())
+
+    def test_pictures_are_arrays(self):
+        rest = self.face.render(96, 128, draft=True)
+        self.assertEqual((rest.shape, rest.dtype), ((128, 96, 4), np.uint8))
+        self.face.settle({"jaw_open": 1})
+        self.assertGreater(np.abs(self.face.render(96, 128, draft=True).astype(int) - rest).mean(), 1)
+
+    def test_play_follows_the_script(self):
+        script = {"format": "risorius-script", "version": 1, "rig": "rig.json", "duration_s": 0.5, "fps": 20,
+                  "channels": {"jaw_open": {"keys": [[0, 0], [0.5, 1]]}}}
+        times, chin = [], []
+        self.face.play(script, lambda t: (times.append(t), chin.append(self.face.landmark("pg")[1])))
+        self.assertEqual(len(times), 10)
+        self.assertTrue(all(a >= b - 1e-4 for a, b in zip(chin, chin[1:])))
+        self.assertLess(chin[-1], chin[0] - 0.015)
+
+    def test_errors_say_what_was_expected(self):
+        for wrong, part in (({"AU99": 1}, "the name of a muscle, an action unit"), ({"procerus": float("nan")}, "NaN")):
+            with self.assertRaises(risorius.Error) as caught:
+                self.face.settle(wrong)
+            self.assertIn(part, str(caught.exception))
+            self.assertIsInstance(caught.exception, ValueError)
+        with self.assertRaises(risorius.Error):
+            risorius.Face("no/such/rig.json")
+        with self.assertRaises(TypeError):
+            self.face.settle({"AU12": "much"})
+        with self.assertRaises(ZeroDivisionError):
+            self.face.play({"format": "risorius-script", "version": 1, "rig": "r", "duration_s": 1}, lambda t: 1 / 0)
+
+
+class SoftBodyTest(unittest.TestCase):
+    BODY = {"kind": "solid", "discretisation": "cells", "grid": [4, 4, 4], "rest": {"block_m": [0.3, 0.3, 0.3]},
+            "material": {"young_pa": 20000, "poisson_ratio": 0.45, "density_kg_per_m3": 1000, "viscosity_pa_s": 20},
+            "fixed": [{"a3": "last"}]}
+
+    def test_a_hanging_cube_sags_and_keeps_its_volume(self):
+        body = risorius.SoftBody(self.BODY)
+        volume, lowest = body.volume_m3, body.nodes[:, 2].min()
+        body.advance(0.2)
+        self.assertAlmostEqual(body.time_s, 0.2, places=9)
+        self.assertLess(body.nodes[:, 2].min(), lowest - 1e-3)
+        self.assertLess(abs(body.volume_m3 / volume - 1), 0.03)
+        self.assertEqual(body.grid, [4, 4, 4])
+        with self.assertRaises(risorius.Error) as caught:
+            risorius.SoftBody(dict(self.BODY, grid=[1, 4, 4]))
+        self.assertIn("body:/grid", str(caught.exception))
+
+
+class RenderTest(unittest.TestCase):
+    SCRIPT = {"format": "risorius-script", "version": 1, "rig": str(SOURCES / "rigs/adult/rig.json"), "duration_s": 0.2,
+              "fps": 20, "events": [{"expression": "surprise", "start_s": 0, "onset_s": 0.1}]}
+
+    def test_a_script_becomes_a_video_with_its_record(self):
+        with tempfile.TemporaryDirectory() as folder:
+            seen = []
+            record = risorius.render(self.SCRIPT, pathlib.Path(folder) / "x.mkv", size=(64, 64), draft=True,
+                                     progress=lambda fraction, what: seen.append(fraction))
+            self.assertTrue((pathlib.Path(folder) / "x.mkv").exists())
+            self.assertEqual(record["format"], "risorius-run")
+            self.assertTrue(seen and seen == sorted(seen))
+
+    def test_ctrl_c_stops_and_leaves_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+            with self.assertRaises(KeyboardInterrupt):
+                risorius.render(dict(self.SCRIPT, duration_s=60), pathlib.Path(folder) / "x.mkv", size=(64, 64), draft=True)
+            self.assertEqual(os.listdir(folder), [])
+
+
+class SampleTest(unittest.TestCase):
+    def run_sample(self, name, *arguments):
+        environment = {**os.environ, "PYTHONPATH": str(MODULE)}
+        done = subprocess.run([sys.executable, str(SOURCES / "samples/python" / name), *map(str, arguments)],
+                              capture_output=True, text=True, env=environment, timeout=600)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def test_smile(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertIn("the left corner of the mouth moves by", self.run_sample("smile.py", folder + "/smile.ppm"))
+            self.assertEqual((pathlib.Path(folder) / "smile.ppm").stat().st_size, 15 + 512 * 512 * 3)
+
+    def test_cantilever_converges(self):
+        errors = [abs(float(line.split("mm, ")[1].split(" %")[0])) for line in self.run_sample("cantilever.py").splitlines()]
+        self.assertEqual(errors, sorted(errors, reverse=True))
+        self.assertLess(errors[-1], 10)
+
+    def test_inverse_finds_the_activations(self):
+        self.assertLess(float(self.run_sample("inverse.py").rsplit(" ", 1)[1]), 0.02)
+
+    def test_study(self):
+        rows = [line.split("\t") for line in self.run_sample("study.py").splitlines()]
+        self.assertEqual(len(rows), 10)
+        self.assertGreater(float(rows[3][2]), float(rows[1][2]))
+
+    def test_play(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(self.run_sample("play.py", SOURCES / "samples/smile/script.json", folder + "/p.tsv").split()[1], "frames")
+
+
+class WheelTest(unittest.TestCase):
+    def test_a_wheel_brings_everything_along(self):
+        with tempfile.TemporaryDirectory() as folder:
+            made = subprocess.run([sys.executable, str(SOURCES / "tools/package/make_wheel.py"), str(MODULE.parent), str(SOURCES),
+                                   "0.1.0", folder], capture_output=True, text=True)
+            self.assertEqual(made.returncode, 0, made.stderr)
+            wheel = made.stdout.strip()
+            place = folder + "/installed"
+            if subprocess.run([sys.executable, "-m", "pip", "--version"], capture_output=True).returncode == 0:
+                pip = subprocess.run([sys.executable, "-m", "pip", "install", "--no-index", "--no-deps", "--target", place, wheel],
+                                     capture_output=True, text=True)
+                self.assertEqual(pip.returncode, 0, pip.stderr)
+            else:  # a wheel is an archive
+                zipfile.ZipFile(wheel).extractall(place)
+            environment = {key: value for key, value in os.environ.items() if key not in ("RISORIUS_DATA", "PYTHONPATH")}
+            done = subprocess.run([sys.executable, "-c", "import risorius; print(risorius.data_folder()); "
+                                   "print(risorius.Face(quality='draft').vertices.shape)"],
+                                  capture_output=True, text=True, cwd=place, env=environment)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(place + "/risorius/data", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
