@@ -89,7 +89,12 @@ TEST_F(Batch, MakesTheSameBytesHoweverItGoes) {
     std::ofstream(video, std::ios::app) << "x";
     options.design = design("design.json", {1, 0.8, 0.5});
     fs::remove(options.out / "stimuli/stim-smile0p5_video.json");
+    // Files that may be somebody's are replaced on request only
+    EXPECT_NE(message_of([&] { make_batch(options); }).find("as `batch` has written it"),
+              std::string::npos);
+    options.replace = true;
     const BatchReport other = make_batch(options);
+    options.replace = false;
     EXPECT_EQ(other.made, 3);
     EXPECT_EQ(text_of(video), smile);
     EXPECT_FALSE(fs::exists(options.out / "stimuli/stim-smile1Reversed_video.mkv"));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -43,6 +44,21 @@ void append_word(std::string word, std::string& name) {
     name += word;
 }
 
+bool is_drawn(const ConditionSet& set, const std::string& name) {
+    return std::any_of(set.factors.begin(), set.factors.end(),
+                       [&](const Factor& factor) { return factor.drawn && factor.name == name; });
+}
+
+/// A number with four significant digits, without an exponent.
+std::string four_digits(const Json& value) {
+    if (!value.is_number()) return json_text(value);
+    const double number = value.get<double>();
+    const int decimals =
+        number == 0 ? 0 : 3 - static_cast<int>(std::floor(std::log10(std::abs(number))));
+    const double unit = std::pow(10.0, decimals);
+    return format_number(std::round(number * unit) / unit);
+}
+
 /// The name of a clip. Each value is converted by clip_word(), so that signs and points become letters.
 std::string clip_name(const ConditionSet& set, const Parameters& values) {
     std::string out;
@@ -57,7 +73,11 @@ std::string clip_name(const ConditionSet& set, const Parameters& values) {
         const std::size_t end = set.clip.find('}', i);
         if (end == std::string::npos)
             throw Error(place, "${name of a parameter}", risorius::in_quotes(set.clip.substr(i)));
-        append_word(clip_word(values.filled_text(set.clip.substr(i, end + 1 - i), place)), out);
+        const std::string name = set.clip.substr(i + 2, end - i - 2);
+        append_word(clip_word(is_drawn(set, name)
+                                  ? four_digits(values.at(name))
+                                  : values.filled_text(set.clip.substr(i, end + 1 - i), place)),
+                    out);
         i = end + 1;
     }
     if (out.empty())

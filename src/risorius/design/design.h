@@ -20,6 +20,8 @@ namespace risorius::design {
 struct Factor {
     std::string name;
     std::vector<JsonCursor> levels;
+    bool drawn =
+        false;  ///< whether the levels were drawn at random; then names of clips have four digits of them
 };
 
 /// Values of parameters that apply to conditions with all values of `when`.
@@ -55,6 +57,8 @@ struct ClipOptions {
     bool lossless = false;
     bool landmarks = true;  ///< whether the table of frames has the positions of landmarks
     std::optional<std::string> photodiode;
+    /// Frames from one key frame of the codec to the next; default: only the first frame of clips of up to 10 s
+    std::optional<int> keyframe_interval;
 };
 
 /// Matches mean and standard deviation of luminance (media/luminance.h) by an affine function of linear light, one for all clips
@@ -84,8 +88,15 @@ struct ExperimentOptions {
     bool controls = true;           ///< whether controls are also shown
     int repetitions = 1;
     double fixation_s = 0.5;
+    bool answer_during = false;  ///< whether a key pressed while the clip is shown is the answer
     /// Packages of jsPsych: a URL or a folder
     std::string jspsych_from = "https://cdn.jsdelivr.net/npm";
+};
+
+/// What the data set says about itself.
+struct DatasetOptions {
+    std::vector<std::string> authors;
+    std::string license = "n/a", copyright = "n/a";
 };
 
 /// The content of a design file.
@@ -96,6 +107,8 @@ struct Design {
     ClipOptions clips;
     Match match;
     std::optional<ExperimentOptions> experiment;
+    DatasetOptions dataset;
+    double pulse_ms = 10;  ///< minimum time that a trigger code stays on the line
     std::vector<Given> parameters;
     std::vector<ConditionSet> sets;
 };

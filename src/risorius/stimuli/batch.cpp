@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "risorius/core/error.h"
@@ -75,7 +76,7 @@ void note_twins(BatchPlan& plan) {
     int twins = 0;
     for (const ClipPlan& clip : plan.clips) {
         if (clip.is_control()) continue;
-        const auto [like, is_new] = first.emplace(clip.render_sha256, &clip);
+        const auto [like, is_new] = first.emplace(clip.shown_sha256(), &clip);
         if (is_new) continue;
         if (++twins == 1)
             example = clip.condition.clip + " is " + like->second->condition.clip + " again";
@@ -112,6 +113,8 @@ BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped)
     plan.name = design.name;
     plan.match = design.match;
     plan.experiment = design.experiment;
+    plan.pulse_ms = design.pulse_ms;
+    plan.dataset = design.dataset;
     for (const design::ConditionSet& set : design.sets)
         if (!set.fraction.empty() || set.draw)
             plan.balances.emplace_back(set.name, design::balance_of(set, design.seed));
@@ -136,6 +139,7 @@ Json BatchReport::json() const {
             {"elsewhere", elsewhere},
             {"unmeasured", unmeasured},
             {"failed", list},
+            {"changed", changed},
             {"complete", complete},
             {"seconds", seconds}};
 }
@@ -190,6 +194,7 @@ class BatchRun {
                             .clips_at_once = at_once,
                             .inputs = inputs_,
                             .session = session,
+                            .settled = settled_,
                             .monitor = frames});
             } catch (const Error& error) {
                 why = error.what();
@@ -213,16 +218,34 @@ class BatchRun {
     const ProgressMonitor& monitor_;
     animate::RenderInputs& inputs_;
     BatchReport& report_;
+    SettledMotions settled_;
     std::mutex reporting_;
     double left_s_ = 0;  ///< estimated time of the remaining clips
 };
 
+/// Throws Error when a clip would replace a file that is not as `batch` has written it.
+void check_not_changed(const std::vector<const ClipPlan*>& clips, const fs::path& folder) {
+    if (!fs::exists(folder)) return;
+    const std::set<fs::path> own = own_files(folder);
+    for (const ClipPlan* clip : clips) {
+        const ClipFiles files = clip_files(*clip);
+        std::vector<fs::path> all = files.listed();
+        all.push_back(files.sidecar);
+        for (const fs::path& file : all)
+            if (fs::exists(folder / file) && own.count(file) == 0)
+                throw Error((folder / file).string(),
+                            "no file, or one that is as `batch` has written it, unless " +
+                                option_name("replace") + " is given",
+                            "another or a changed one");
+    }
+}
+
 /// Writes the files of the set. The last two parts may come to this at the same time; then one waits for the other.
-void write_set_after_others(const BatchPlan& plan, const BatchOptions& options,
-                            const ProgressMonitor& monitor) {
+std::vector<std::string> write_set_after_others(const BatchPlan& plan, const BatchOptions& options,
+                                                const ProgressMonitor& monitor) {
     for (;;) {
         try {
-            return write_set(plan, options.design, options.out, monitor);
+            return write_set(plan, options, monitor);
         } catch (const OutputInUse&) {
             monitor.throw_if_stopped();
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -272,12 +295,13 @@ BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monit
             wanted.push_back(&clip);
         }
     }
+    if (!options.replace) check_not_changed(wanted, options.out);
     report.made = run.work(wanted, "made", make_clip);
 
     // Write the files of the whole set.
     if (report.failed.empty() && report.elsewhere == 0) {
         monitor.report(1, "the files of the set");
-        write_set_after_others(plan, options, monitor);
+        report.changed = write_set_after_others(plan, options, monitor);
         report.complete = true;
     }
     report.seconds = time.seconds();

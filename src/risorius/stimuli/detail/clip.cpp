@@ -2,11 +2,14 @@
 #include "risorius/stimuli/detail/clip.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "risorius/animate/frame_rows.h"
+#include "risorius/animate/landmark_run.h"
 #include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
 #include "risorius/core/input_log.h"
@@ -18,8 +21,11 @@
 #include "risorius/media/sha256.h"
 #include "risorius/media/sync_marks.h"
 #include "risorius/media/video_reader.h"
+#include "risorius/media/video_writer.h"
 #include "risorius/media/wav_file.h"
 #include "risorius/stimuli/detail/clip_pictures.h"
+#include "risorius/stimuli/detail/frame_columns.h"
+#include "risorius/stimuli/detail/seen_motion.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
 #include "risorius/track/timeline.h"
 
@@ -33,6 +39,7 @@ namespace {
 // Estimates for two cores: seconds per clip, per frame and per pixel, and bytes per pixel
 constexpr double kClip_s = 0.1, kFrame_s = 0.04, kPixel_s = 1e-7, kByte_px = 0.03,
                  kLosslessByte_px = 1.2;
+constexpr int kOneKeyframe_s = 10;        // shorter clips have only one key frame
 constexpr double kMaxHeld_bytes = 0.6e9;  // limit for frames that are kept in memory
 
 /// The positions in a script that name a file.
@@ -64,13 +71,6 @@ std::string stem(const ClipPlan& plan) { return "stimuli/stim-" + plan.condition
 /// The suffix of BIDS for a video without and with sound.
 std::string suffix(const ClipPlan& plan) { return plan.sound ? "_audiovideo" : "_video"; }
 
-/// Whether the table has the positions of landmarks, because the design requests them or the clip is made with them.
-bool needs_landmarks(const ClipPlan& plan) {
-    const design::ControlKind kind = plan.condition.control.kind;
-    return plan.clips.landmarks || shows_part(kind) || kind == design::ControlKind::kApex ||
-           (plan.luminance && plan.luminance->within_face);
-}
-
 /// Whether the script moves the head in any frame.
 bool moves_the_head(const track::ScriptDescription& script, const track::ChannelTable& channels,
                     const ClipPlan& plan) {
@@ -82,6 +82,13 @@ bool moves_the_head(const track::ScriptDescription& script, const track::Channel
             if (drive.kinematic[static_cast<std::size_t>(k)] != 0) return true;
     }
     return false;
+}
+
+/// Frames from one key frame to the next; none for endings in which every frame is one.
+std::optional<int> keyframe_interval(const ClipPlan& plan) {
+    if (plan.clips.ending == "mkv") return {};
+    // A key frame is coded anew, which shows as a pulse in a face that does not move.
+    return plan.clips.keyframe_interval.value_or(std::min(plan.frames, kOneKeyframe_s * plan.fps));
 }
 
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
@@ -143,6 +150,24 @@ double ClipPlan::megabytes() const {
            width_px * height_px;
 }
 
+std::string ClipPlan::shown_sha256() const {
+    std::string shown = render_sha256;
+    if (sound)
+        shown += sound->sha256 + " " + std::to_string(sound->offset_samples) + " " +
+                 format_number(sound->gain_db);
+    return shown;
+}
+
+double SettledMotions::at(const std::string& key, const std::function<double()>& measure) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (const auto found = known_.find(key); found != known_.end()) return found->second;
+    }
+    const double value = measure();
+    const std::lock_guard lock(mutex_);
+    return known_.emplace(key, value).first->second;
+}
+
 void ClipPlan::match(const media::Tone& matched) {
     tone = matched;
     const media::ToneCurve curve(matched);
@@ -192,7 +217,6 @@ std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256
                   {"script", condition.script},
                   {"rig", rig_sha256},
                   {"quality", plan.clips.quality},
-                  {"landmarks", needs_landmarks(plan)},
                   {"flipped", condition.control.kind == design::ControlKind::kFlipped},
                   {"within", plan.luminance && plan.luminance->within_face ? "face" : "picture"}};
     for (const Json::json_pointer& key : file_keys(condition.script)) {
@@ -204,6 +228,11 @@ std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256
     }
     return animate::sha256_of_text(json_text(rendered));
 }
+
+/// Changes when clips are made or measured in another way, so that older ones are made anew.
+constexpr int kWayOfMaking = 2;
+
+Json or_none(const std::optional<int>& value) { return value ? Json(*value) : Json(); }
 
 /// The checksum of everything that the clip depends on.
 std::string content_sha256_of(const ClipPlan& plan) {
@@ -220,6 +249,8 @@ std::string content_sha256_of(const ClipPlan& plan) {
                  {"crf", clips.crf ? Json(*clips.crf) : Json()},
                  {"lossless", clips.lossless},
                  {"landmarks", clips.landmarks},
+                 {"keyframes", or_none(keyframe_interval(plan))},
+                 {"made_by", kWayOfMaking},
                  {"photodiode", clips.photodiode ? Json(*clips.photodiode) : Json()}};
     if (plan.sound)
         content["sound"] = {{"file", plan.sound->sha256},
@@ -254,6 +285,12 @@ ClipPlan plan_clip(const design::Condition& condition, const design::Design& des
             static_cast<std::uint8_t>(std::lround(255 * header.view.background_rgb[k]));
     check_control(plan, script, channels, json.place());
     if (clips.photodiode) media::corner_named(*clips.photodiode, "clips/photodiode");
+    media::check_target("clips." + clips.ending, {.width_px = plan.width_px,
+                                                  .height_px = plan.height_px,
+                                                  .fps = plan.fps,
+                                                  .crf = clips.crf,
+                                                  .keyframe_interval = clips.keyframe_interval,
+                                                  .lossless = clips.lossless});
     if (condition.audio)
         plan.sound = sounds.at(condition, static_cast<double>(plan.frames) / plan.fps,
                                design.match.loudness_lufs, json.place());
@@ -266,7 +303,7 @@ ClipPlan plan_clip(const design::Condition& condition, const design::Design& des
 }
 
 std::vector<fs::path> ClipFiles::listed() const {
-    std::vector<fs::path> files{script, strip, video, events};
+    std::vector<fs::path> files{script, strip, video, events, columns};
     if (!sound.empty()) files.push_back(sound);
     return files;
 }
@@ -276,6 +313,7 @@ ClipFiles clip_files(const ClipPlan& plan) {
             fs::path("overview") / (plan.condition.clip + ".png"),
             stem(plan) + suffix(plan) + "." + plan.clips.ending,
             stem(plan) + "_annot-frames_events.tsv",
+            stem(plan) + "_annot-frames_events.json",
             plan.sound ? fs::path(stem(plan) + "_audio.wav") : fs::path(),
             stem(plan) + suffix(plan) + ".json"};
 }
@@ -310,7 +348,7 @@ animate::RenderJob render_job_of(const ClipPlan& plan, const fs::path& out,
     request.out = out;
     request.video = coding;
     request.quality = plan.clips.quality;
-    request.landmarks = needs_landmarks(plan);
+    request.landmarks = true;  // what is seen to move is measured on them
     request.threads = worker.threads;
     request.renders_at_once = worker.clips_at_once;
     request.flipped_motion = plan.condition.control.kind == design::ControlKind::kFlipped;
@@ -340,9 +378,79 @@ UnmatchedRender unmatched_render_for(const ClipPlan& plan, const ClipWorker& wor
 struct ShownClip {
     animate::FrameRows rows;
     std::vector<int> order;  ///< for each frame of the clip: the frame of the script
-    animate::Moments moments;
+    SeenMotion motion;
+    std::optional<double> commanded_onset_s, commanded_apex_s;
     Json run, luminance;  ///< luminance: null if it is not matched
 };
+
+/// When the strongest expression of a script is told to begin and to be complete.
+void find_commanded(const track::ScriptDescription& script, ShownClip& shown) {
+    const track::ExpressionEvent* strongest = nullptr;
+    for (const track::ExpressionEvent& event : script.expressions) {
+        if (!strongest || event.intensity > strongest->intensity) strongest = &event;
+        shown.commanded_onset_s =
+            std::min(shown.commanded_onset_s.value_or(event.start_s), event.start_s);
+    }
+    if (strongest) shown.commanded_apex_s = strongest->start_s + strongest->onset_s;
+}
+
+/// Whether a channel is an action unit.
+bool is_unit(const std::string& channel) {
+    return channel.size() > 2 && channel.starts_with("AU") &&
+           std::isdigit(static_cast<unsigned char>(channel[2]));
+}
+
+/// The script with its expressions and units scaled so that the largest is 1, in a healthy face and without anything else that moves;
+/// none when it has neither.
+std::optional<Json> script_at_full_intensity(Json script) {
+    for (const char* key : {"weakness", "late_s", "view", "emg"}) script.erase(key);
+    Json events = Json::array();
+    double most = 0;
+    if (script.contains("events"))
+        for (const Json& event : script.at("events"))
+            if (event.contains("expression")) {
+                most = std::max(most, event.value("intensity", 1.0));
+                events.push_back(event);
+            }
+    Json channels = Json::object();
+    if (script.contains("channels"))
+        for (const auto& [name, channel] : script.at("channels").items())
+            if (is_unit(name) && channel.contains("keys")) {
+                for (const Json& key : channel.at("keys"))
+                    most = std::max(most, key.at(1).get<double>());
+                channels[name] = channel;
+            }
+    if (!(most > 0)) return {};
+    for (Json& event : events) event["intensity"] = event.value("intensity", 1.0) / most;
+    for (Json& channel : channels)
+        for (Json& key : channel["keys"]) key[1] = key.at(1).get<double>() / most;
+    // When there is one expression, its course does not matter; so all clips of a head with it share the measurement.
+    if (channels.empty() && events.size() == 1) {
+        Json& event = events[0];
+        event["start_s"] = 0;
+        event["onset_s"] = 0.1;
+        event["hold_s"] = 1;
+        event["offset_s"] = 0.1;
+        script["duration_s"] = 0.5;
+        script["fps"] = 10;
+    }
+    script["events"] = events;
+    script["channels"] = channels;
+    return script;
+}
+
+/// SeenMotion::full_mm of a clip.
+std::optional<double> full_motion_mm(const ClipPlan& plan, const ClipWorker& worker) {
+    const std::optional<Json> script = script_at_full_intensity(plan.condition.script);
+    if (!script) return {};
+    ClipPlan full = plan;
+    full.condition.script = *script;
+    const std::string key = json_text(*script) + plan.condition.folder.string();
+    return worker.settled.at(key, [&] {
+        return largest_way_mm(animate::settled_landmarks(
+            render_job_of(full, worker.folder / "none.mkv", {}, worker), worker.session));
+    });
+}
 
 /// Renders the clip, or takes its pictures from an unmatched render, and applies the control.
 ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
@@ -360,19 +468,34 @@ ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
         shown.run = portable_record(result.record);
         shown.rows = animate::frame_rows(result.table);
     }
-    shown.moments = animate::moments_of(animate::max_landmark_displacements(shown.rows));
-    shown.order = design::frame_order(plan.condition.control, job.frames, shown.moments.apex,
-                                      plan.condition.seed);
+    std::optional<animate::LandmarkFrames> twin;
+    if (const auto without = animate::job_without_expression(job))
+        twin = animate::play_landmarks(*without, worker.session, worker.monitor);
+    const design::Control& control = plan.condition.control;
+    const auto order_with = [&](int apex) {
+        return design::frame_order(control, job.frames, apex, plan.condition.seed);
+    };
+    int apex = 0;
+    if (control.kind == ControlKind::kApex) {
+        std::vector<int> forwards(static_cast<std::size_t>(job.frames));
+        std::iota(forwards.begin(), forwards.end(), 0);
+        apex = seen_motion(shown.rows, twin, forwards, plan.fps).apex.value_or(0);
+    }
+    shown.order = order_with(apex);
+    shown.motion = seen_motion(shown.rows, twin, shown.order, plan.fps);
+    if (shown.motion.seen_mm) shown.motion.full_mm = full_motion_mm(plan, worker);
+    if (std::is_sorted(shown.order.begin(), shown.order.end()) && shown.motion.seen_mm)
+        find_commanded(job.script, shown);
     pictures.finish(shown.rows, shown.order);
     return shown;
 }
 
 /// The sidecar without the checksums of the files.
 Json sidecar_of(const ClipPlan& plan, ShownClip shown, ClipPictures& pictures) {
-    const auto shown_at = [&](int frame) {
-        return static_cast<int>(std::find(shown.order.begin(), shown.order.end(), frame) -
-                                shown.order.begin());
-    };
+    const auto or_null = [](const auto& value) { return value ? Json(*value) : Json(); };
+    Json motion = json_of(shown.motion, pictures.pixel_onset());
+    motion["commanded_onset_s"] = or_null(shown.commanded_onset_s);
+    motion["commanded_apex_s"] = or_null(shown.commanded_apex_s);
     Json record{{"format", "risorius-clip"},
                 {"version", 1},
                 {"stim_id", plan.condition.clip},
@@ -383,8 +506,9 @@ Json sidecar_of(const ClipPlan& plan, ShownClip shown, ClipPictures& pictures) {
                 {"frames", plan.frames},
                 {"fps", plan.fps},
                 {"duration_s", static_cast<double>(plan.frames) / plan.fps},
-                {"movement_onset_frame", shown_at(shown.moments.onset)},
-                {"apex_frame", shown_at(shown.moments.apex)},
+                {"movement_onset_frame", or_null(shown.motion.onset)},
+                {"apex_frame", or_null(shown.motion.apex)},
+                {"motion", std::move(motion)},
                 {"pictures_sha256", pictures.sha256()},
                 {"content_sha256", plan.content_sha256},
                 {"files", Json::object()},
@@ -419,6 +543,8 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
     media::VideoOptions coding;
     coding.crf = plan.clips.crf;
     coding.lossless = plan.clips.lossless;
+    coding.keyframe_interval = keyframe_interval(plan);
+    coding.still = shows_one_picture(plan.condition.control.kind) && !plan.clips.photodiode;
     animate::RenderJob job = render_job_of(plan, video_file, coding, worker);
     if (plan.sound) {
         job.video.sound = sound_of(*plan.sound);
@@ -430,8 +556,9 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
 
     // All files appear together, or none.
     video.finish();
-    write_file(written[files.events],
-               events_table(shown.rows, shown.order, pictures.measures(), plan));
+    const std::string table = events_table(shown.rows, shown.order, pictures.measures(), plan);
+    write_file(written[files.events], table);
+    write_file(written[files.columns], frame_columns(table, plan));
     media::write_png(pictures.strip(), written[files.strip]);
     if (plan.sound)
         media::write_wav(heard_of(*plan.sound, static_cast<double>(plan.frames) / plan.fps),

@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kStrip = 5, kThumb_px = 120;
 constexpr int kPhotodiode_px = 64;
+constexpr double kSeenChange = 1e-7;  // mean of squared differences of relative luminance
 
 /// A window with soft edges. Outside it, the background is shown.
 struct Window {
@@ -89,6 +90,11 @@ std::optional<std::string> shown(const std::string& column, const media::Picture
     return {};
 }
 
+bool is_of_landmark(const std::string& column) {
+    return column.ends_with(".x_mm") || column.ends_with(".y_mm") || column.ends_with(".z_mm") ||
+           column.ends_with(".u_px") || column.ends_with(".v_px");
+}
+
 }  // namespace
 
 bool shows_other_order(design::ControlKind kind) {
@@ -98,6 +104,10 @@ bool shows_other_order(design::ControlKind kind) {
 
 bool shows_part(design::ControlKind kind) {
     return kind == design::ControlKind::kEyesOnly || kind == design::ControlKind::kMouthOnly;
+}
+
+bool shows_one_picture(design::ControlKind kind) {
+    return kind == design::ControlKind::kApex || kind == design::ControlKind::kNeutral;
 }
 
 ClipPictures::ClipPictures(const ClipPlan& plan, media::VideoWriter& video)
@@ -143,9 +153,31 @@ Image ClipPictures::strip() const {
     return out;
 }
 
+void ClipPictures::look_for_change(const Image& image) {
+    if (pixel_onset_) return;
+    const std::size_t pixels = image.rgba.size() / 4;
+    if (first_.empty()) {
+        for (std::size_t i = 0; i < pixels; ++i) {
+            const std::uint8_t* pixel = &image.rgba[4 * i];
+            const bool behind = std::equal(plan_.background.begin(), plan_.background.end(), pixel);
+            first_.push_back(behind ? -1 : media::relative_luminance(pixel));
+        }
+        return;
+    }
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        if (first_[i] < 0) continue;
+        const double change = media::relative_luminance(&image.rgba[4 * i]) - first_[i];
+        sum += change * change;
+        ++count;
+    }
+    if (count > 0 && sum / count > kSeenChange) pixel_onset_ = written_;
+}
+
 void ClipPictures::write(Image image) {
     if (kind_ == design::ControlKind::kUpsideDown) turn_upside_down(image);
     if (phases_) phases_->scramble(image);
+    look_for_change(image);
     if (measured_) measures_.push_back(meter_.measure(image));
     const int height = std::min(kThumb_px, image.height_px);
     thumbs_.push_back(
@@ -163,7 +195,10 @@ std::string events_table(const animate::FrameRows& rows, const std::vector<int>&
                          const std::vector<media::PictureMeasures>& measures,
                          const ClipPlan& plan) {
     std::string out = "onset\tduration\tframe\tsource_frame";
-    for (std::size_t c = 2; c < rows.names.size(); ++c) out += "\t" + rows.names[c];
+    std::vector<std::size_t> columns;
+    for (std::size_t c = 2; c < rows.names.size(); ++c)
+        if (plan.clips.landmarks || !is_of_landmark(rows.names[c])) columns.push_back(c);
+    for (const std::size_t c : columns) out += "\t" + rows.names[c];
     if (plan.clips.photodiode) out += "\tphotodiode";
     out += "\n";
     const bool turned = plan.condition.control.kind == design::ControlKind::kUpsideDown;
@@ -172,7 +207,7 @@ std::string events_table(const animate::FrameRows& rows, const std::vector<int>&
         out += decimal_text(static_cast<double>(i) / plan.fps, 6) + "\t" +
                decimal_text(1.0 / plan.fps, 6) + "\t" + std::to_string(i) + "\t" +
                std::to_string(order[i]);
-        for (std::size_t c = 2; c < rows.names.size(); ++c) {
+        for (const std::size_t c : columns) {
             const std::string& name = rows.names[c];
             const auto ends = [&](const char* end) {
                 return name.size() > 5 && name.compare(name.size() - 5, 5, end) == 0;

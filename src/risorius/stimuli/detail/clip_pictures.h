@@ -21,6 +21,8 @@ namespace risorius::stimuli {
 bool shows_other_order(design::ControlKind kind);
 /// Returns whether the control shows only a window around eyes or mouth.
 bool shows_part(design::ControlKind kind);
+/// Returns whether the clip is one picture, shown all the time.
+bool shows_one_picture(design::ControlKind kind);
 
 /// Processes the pictures of one clip.
 class ClipPictures {
@@ -39,8 +41,13 @@ class ClipPictures {
     /// Returns the measures of each frame of the clip, without marks; empty when those of the render are still valid.
     const std::vector<media::PictureMeasures>& measures() const { return measures_; }
 
+    /// Returns the first frame whose pictures differ from the first one by more than 1e-7, which is the mean squared difference of
+    /// luminance over what is not background.
+    std::optional<int> pixel_onset() const { return pixel_onset_; }
+
   private:
     void write(Image image);
+    void look_for_change(const Image& image);
 
     const ClipPlan& plan_;
     design::ControlKind kind_;
@@ -51,6 +58,9 @@ class ClipPictures {
     media::LuminanceMeter meter_;
     std::vector<media::PictureMeasures> measures_;
     int written_ = 0;
+    std::vector<double>
+        first_;  ///< luminance of the first picture; -1 where it shows the background
+    std::optional<int> pixel_onset_;
     std::vector<Image> held_, thumbs_;
     media::Sha256 hash_;
 };
