@@ -142,6 +142,7 @@ void run(BatchArguments& arguments) {
         std::printf("%s: %d clips made, %d kept, %zu failed, %s\n", options.out.string().c_str(),
                     report.made, report.kept, report.failed.size(),
                     time_text(report.seconds).c_str());
+        for (const std::string& note : report.notes) std::printf("note: %s\n", note.c_str());
         for (const std::string& file : report.changed)
             std::printf("note: %s was changed and stays; the new one is %s.new\n", file.c_str(),
                         file.c_str());

@@ -148,21 +148,35 @@ ClipOptions read_clips(const JsonCursor& json) {
     return clips;
 }
 
+LuminanceMatch read_luminance(const JsonCursor& json) {
+    using OneFor = LuminanceMatch::OneFor;
+    json.allow_keys({"within", "one_for", "mean", "sd", "cut_limit", "allow_clipping"});
+    LuminanceMatch out;
+    if (const auto v = json.find("within"))
+        out.within_face = v->one_of({"picture", "face"}) == "face";
+    out.one_for = out.within_face ? OneFor::kIdentity : OneFor::kAll;
+    if (const auto v = json.find("one_for")) {
+        const std::string name = v->one_of({"all", "identity", "clip"});
+        out.one_for = name == "all"        ? OneFor::kAll
+                      : name == "identity" ? OneFor::kIdentity
+                                           : OneFor::kClip;
+    }
+    if (const auto v = json.find("mean")) out.mean = v->number({0.001, 0.999});
+    if (const auto v = json.find("sd")) out.sd = v->number({0.001, 0.5});
+    if (const auto v = json.find("cut_limit")) out.cut_limit = v->number({0, 1});
+    if (const auto v = json.find("allow_clipping")) out.allow_clipping = v->boolean();
+    if (out.one_for == OneFor::kAll && !out.mean && !out.sd)
+        json.fail(
+            "\"mean\" or \"sd\" to match all clips to, or \"one_for\": \"identity\" or \"clip\"",
+            "none of them");
+    return out;
+}
+
 Match read_match(const JsonCursor& json) {
     json.allow_keys({"luminance", "loudness"});
     Match match;
     if (const auto luminance = json.find("luminance")) {
-        luminance->allow_keys({"within", "one_for", "mean", "sd"});
-        LuminanceMatch& out = match.luminance.emplace();
-        if (const auto v = luminance->find("within"))
-            out.within_face = v->one_of({"picture", "face"}) == "face";
-        if (const auto v = luminance->find("one_for"))
-            out.per_clip = v->one_of({"all", "clip"}) == "clip";
-        if (const auto v = luminance->find("mean")) out.mean = v->number({0.001, 0.999});
-        if (const auto v = luminance->find("sd")) out.sd = v->number({0.001, 0.5});
-        if (!out.per_clip && !out.mean && !out.sd)
-            luminance->fail("\"mean\" or \"sd\" to match all clips to, or \"one_for\": \"clip\"",
-                            "none of them");
+        match.luminance = read_luminance(*luminance);
     }
     if (const auto loudness = json.find("loudness")) {
         loudness->allow_keys({"lufs"});

@@ -61,14 +61,18 @@ struct ClipOptions {
     std::optional<int> keyframe_interval;
 };
 
-/// Matches mean and standard deviation of luminance (media/luminance.h) by an affine function of linear light, one for all clips
-/// or one per clip. Only conditions are measured; controls are mapped by the same function.
+/// Matches mean and standard deviation of luminance (media/tone.h) by an affine function of linear light. The background is not
+/// changed. Only conditions are measured; controls are mapped as their condition is.
 struct LuminanceMatch {
     /// True: only the oval of the face is measured, not the whole picture
     bool within_face = false;
-    bool per_clip = false;
+    /// One map for all clips; for all clips of a head in a view; or for each clip and its controls
+    enum class OneFor { kAll, kIdentity, kClip } one_for = OneFor::kAll;
     /// Targets, (0, 1); if they are not given, they are computed from the whole set
     std::optional<double> mean, sd;
+    /// Largest fraction of channel values that may be clipped at black and white in a clip
+    double cut_limit = 0.005;
+    bool allow_clipping = false;  ///< whether more is a note instead of an error
 };
 
 /// What is made equal in all clips.

@@ -279,7 +279,9 @@ BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monit
             report.seconds = time.seconds();
             return report;
         }
+        const auto before = static_cast<std::ptrdiff_t>(plan.notes.size());
         match_luminance(options.out, plan);
+        report.notes.assign(plan.notes.begin() + before, plan.notes.end());
     }
 
     // Find the clips that exist already.

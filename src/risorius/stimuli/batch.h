@@ -62,7 +62,8 @@ struct BatchReport {
     /// Conditions of other parts that must be rendered before luminance can be matched
     int unmeasured = 0;
     std::vector<std::pair<std::string, std::string>> failed;  ///< name of the clip and reason
-    bool complete = false;  ///< all clips and the files of the set exist
+    bool complete = false;           ///< all clips and the files of the set exist
+    std::vector<std::string> notes;  ///< that came up while the clips were made
     /// Files of the set that somebody has changed. They stay, and the new ones are beside them, as NAME.new
     std::vector<std::string> changed;
     double seconds = 0;

@@ -93,33 +93,29 @@ std::optional<int> keyframe_interval(const ClipPlan& plan) {
 
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-/// Passes on the pictures of an unmatched render and returns their luminance before and after matching.
-Json show_matched(const ClipPlan& plan, const UnmatchedRender& render,
-                  const animate::FrameRows& rows, const ProgressMonitor& monitor,
+/// Passes on the pictures of an unmatched render.
+void show_matched(const UnmatchedRender& render, const ProgressMonitor& monitor,
                   ClipPictures& pictures) {
-    const media::Tone tone = plan.tone.value_or(media::Tone{});
-    const media::ToneCurve curve(tone);
     const ReadingFormerOutput own;
     media::VideoReader reader(render.video);
-    media::LuminanceSums after;
-    double cut_off = 0;
     for (int frame = 0; frame < reader.frames(); ++frame) {
         monitor.report(static_cast<double>(frame) / reader.frames(), animate::kRendering);
-        Image image = reader.frame(frame);
-        const std::vector<std::uint16_t> part = measured_part(plan, rows, frame);
-        cut_off += curve.cut_off(image, part) / reader.frames();
-        Image matched = image;
-        curve.apply(matched);
-        after.add(matched, part);
-        pictures.add(std::move(image));
+        pictures.add(reader.frame(frame));
     }
+}
+
+/// What the sidecar says about a matched clip.
+Json matched_luminance(const ClipPlan& plan, const UnmatchedRender& render,
+                       const ClipPictures& pictures) {
+    const media::Tone tone = plan.tone.value_or(media::Tone{});
     return {{"film_sha256", plan.render_sha256},
             {"within", plan.luminance->within_face ? "face" : "picture"},
             {"gain", tone.gain},
             {"offset", tone.offset},
             {"before", json_of(render.luminance)},
-            {"after", json_of(after)},
-            {"cut_off", cut_off}};
+            {"colours", render.colours},
+            {"after", json_of(pictures.luminance())},
+            {"cut_off", pictures.cut_off()}};
 }
 
 }  // namespace
@@ -170,8 +166,6 @@ double SettledMotions::at(const std::string& key, const std::function<double()>&
 
 void ClipPlan::match(const media::Tone& matched) {
     tone = matched;
-    const media::ToneCurve curve(matched);
-    for (std::uint8_t& byte : background) byte = curve.of(byte);
     content_sha256 = animate::sha256_of_text(json_text(
         Json{{"content", content_sha256}, {"gain", tone->gain}, {"offset", tone->offset}}));
 }
@@ -197,7 +191,7 @@ std::string sha256_of_rig(const animate::RigInput& rig) {
 void check_control(const ClipPlan& plan, const track::ScriptDescription& script,
                    const track::ChannelTable& channels, const std::string& place) {
     const design::ControlKind kind = plan.condition.control.kind;
-    if ((shows_other_order(kind) || shows_part(kind)) &&
+    if (needs_all_frames(plan) &&
         4.0 * plan.frames * plan.width_px * plan.height_px > kMaxHeld_bytes)
         throw Error(place,
                     "fewer or smaller frames for the control " + plan.condition.control.name() +
@@ -217,6 +211,7 @@ std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256
                   {"script", condition.script},
                   {"rig", rig_sha256},
                   {"quality", plan.clips.quality},
+                  {"layers", plan.luminance.has_value()},
                   {"flipped", condition.control.kind == design::ControlKind::kFlipped},
                   {"within", plan.luminance && plan.luminance->within_face ? "face" : "picture"}};
     for (const Json::json_pointer& key : file_keys(condition.script)) {
@@ -280,6 +275,7 @@ ClipPlan plan_clip(const design::Condition& condition, const design::Design& des
     plan.fps = header.fps;
     plan.width_px = header.view.width_px;
     plan.height_px = header.view.height_px;
+    plan.transparent = header.view.transparent;
     for (std::size_t k = 0; k < 3; ++k)
         plan.background[k] =
             static_cast<std::uint8_t>(std::lround(255 * header.view.background_rgb[k]));
@@ -460,7 +456,8 @@ ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
     if (unmatched) {
         shown.run = unmatched->run;
         shown.rows = animate::frame_rows(unmatched->table);
-        shown.luminance = show_matched(plan, *unmatched, shown.rows, worker.monitor, pictures);
+        pictures.know(shown.rows);
+        show_matched(*unmatched, worker.monitor, pictures);
     } else {
         const animate::RenderResult result = animate::run_render_job(
             job, worker.session, [&](Image image) { pictures.add(std::move(image)); },
@@ -486,7 +483,9 @@ ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
     if (shown.motion.seen_mm) shown.motion.full_mm = full_motion_mm(plan, worker);
     if (std::is_sorted(shown.order.begin(), shown.order.end()) && shown.motion.seen_mm)
         find_commanded(job.script, shown);
-    pictures.finish(shown.rows, shown.order);
+    pictures.know(shown.rows);
+    pictures.finish(shown.order);
+    if (unmatched) shown.luminance = matched_luminance(plan, *unmatched, pictures);
     return shown;
 }
 
@@ -546,6 +545,7 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
     coding.keyframe_interval = keyframe_interval(plan);
     coding.still = shows_one_picture(plan.condition.control.kind) && !plan.clips.photodiode;
     animate::RenderJob job = render_job_of(plan, video_file, coding, worker);
+    if (ClipPictures::has_layers(plan)) job.view.background.transparent = true;
     if (plan.sound) {
         job.video.sound = sound_of(*plan.sound);
         job.video.sound_offset_samples = plan.sound->offset_samples;

@@ -46,6 +46,7 @@ struct ClipPlan {
     std::optional<ClipSound> sound;
     int frames = 0, fps = 0, width_px = 0, height_px = 0;
     std::array<std::uint8_t, 3> background{};  ///< sRGB of the displayed background
+    bool transparent = false;                  ///< whether there is none
     /// Checksum of face and view; clips with the same value can share a session
     std::string scene_sha256;
     std::string render_sha256;  ///< checksum of everything that the unmatched pictures depend on

@@ -8,6 +8,7 @@
 #include "risorius/core/error.h"
 #include "risorius/media/sync_marks.h"
 #include "risorius/report/contact_sheet.h"
+#include "risorius/stimuli/detail/unmatched_render.h"
 
 namespace risorius::stimuli {
 
@@ -18,26 +19,6 @@ namespace {
 constexpr int kStrip = 5, kThumb_px = 120;
 constexpr int kPhotodiode_px = 64;
 constexpr double kSeenChange = 1e-7;  // mean of squared differences of relative luminance
-
-/// A window with soft edges. Outside it, the background is shown.
-struct Window {
-    double left = 0, top = 0, right = 0, bottom = 0;
-
-    void show(const std::array<std::uint8_t, 3>& outside, Image& image) const {
-        const double soft = 0.08 * (right - left);
-        for (int y = 0; y < image.height_px; ++y)
-            for (int x = 0; x < image.width_px; ++x) {
-                const double away = std::max({left - x, x - right, top - y, y - bottom, 0.0});
-                const double fraction =
-                    away >= soft ? 0.0 : 0.5 * (1 + std::cos(3.14159265358979 * away / soft));
-                std::uint8_t* pixel = image.pixel(x, y);
-                for (int k = 0; k < 3; ++k)
-                    pixel[k] = static_cast<std::uint8_t>(
-                        std::lround(fraction * pixel[k] +
-                                    (1 - fraction) * outside[static_cast<std::size_t>(k)]));
-            }
-    }
-};
 
 /// A fixed window that contains the landmarks of eyes or mouth in all frames.
 Window window_around(const animate::FrameRows& rows, design::ControlKind kind,
@@ -97,6 +78,30 @@ bool is_of_landmark(const std::string& column) {
 
 }  // namespace
 
+void Window::show(const std::array<std::uint8_t, 3>& outside, Image& image) const {
+    const double soft = 0.08 * (right - left);
+    for (int y = 0; y < image.height_px; ++y)
+        for (int x = 0; x < image.width_px; ++x) {
+            const double away = std::max({left - x, x - right, top - y, y - bottom, 0.0});
+            const double fraction =
+                away >= soft ? 0.0 : 0.5 * (1 + std::cos(3.14159265358979 * away / soft));
+            std::uint8_t* pixel = image.pixel(x, y);
+            for (int k = 0; k < 3; ++k)
+                pixel[k] = static_cast<std::uint8_t>(std::lround(
+                    fraction * pixel[k] + (1 - fraction) * outside[static_cast<std::size_t>(k)]));
+        }
+}
+
+bool needs_all_frames(const ClipPlan& plan) {
+    const ControlKind kind = plan.condition.control.kind;
+    return shows_other_order(kind) || shows_part(kind) ||
+           (kind == ControlKind::kPhaseScrambled && !plan.luminance);
+}
+
+bool ClipPictures::has_layers(const ClipPlan& plan) {
+    return plan.luminance || plan.condition.control.kind == ControlKind::kPhaseScrambled;
+}
+
 bool shows_other_order(design::ControlKind kind) {
     return kind == design::ControlKind::kReversed || kind == design::ControlKind::kScrambled ||
            kind == design::ControlKind::kApex;
@@ -114,30 +119,25 @@ ClipPictures::ClipPictures(const ClipPlan& plan, media::VideoWriter& video)
     : plan_(plan),
       kind_(plan.condition.control.kind),
       video_(video),
-      later_(shows_other_order(kind_) || shows_part(kind_)),
-      measured_(plan.tone || plan.condition.control.shows_otherwise()) {
+      later_(needs_all_frames(plan)),
+      measured_(plan.tone || plan.condition.control.shows_otherwise()),
+      layered_(has_layers(plan)) {
     if (plan.tone) tone_.emplace(*plan.tone);
     if (kind_ == design::ControlKind::kPhaseScrambled)
         phases_.emplace(plan.width_px, plan.height_px, plan.condition.seed);
 }
 
 void ClipPictures::add(Image image) {
-    if (tone_) tone_->apply(image);
     if (later_)
         held_.push_back(std::move(image));
     else
-        write(std::move(image));
+        write(std::move(image), added_++);
 }
 
-void ClipPictures::finish(const animate::FrameRows& rows, const std::vector<int>& order) {
+void ClipPictures::finish(const std::vector<int>& order) {
     if (!later_) return;
-    std::optional<Window> window;
-    if (shows_part(kind_)) window = window_around(rows, kind_, plan_.condition.clip);
-    for (const int frame : order) {
-        Image image = held_[static_cast<std::size_t>(frame)];
-        if (window) window->show(plan_.background, image);
-        write(std::move(image));
-    }
+    if (shows_part(kind_)) window_ = window_around(*rows_, kind_, plan_.condition.clip);
+    for (const int frame : order) write(held_[static_cast<std::size_t>(frame)], frame);
 }
 
 Image ClipPictures::strip() const {
@@ -174,9 +174,22 @@ void ClipPictures::look_for_change(const Image& image) {
     if (count > 0 && sum / count > kSeenChange) pixel_onset_ = written_;
 }
 
-void ClipPictures::write(Image image) {
+void ClipPictures::write(Image image, int frame) {
+    std::vector<float> measured, oval;
+    if (plan_.luminance) measured = measured_weights(plan_, *rows_, frame, image);
+    if (phases_) oval = weights_in_oval(plan_, *rows_, frame, image);
+    if (tone_) cut_off_ += tone_->cut_off(image, measured);
+    if (layered_) {
+        const media::ToneCurve curve = tone_.value_or(media::ToneCurve(media::Tone{}));
+        if (plan_.transparent)
+            curve.apply(image);
+        else
+            curve.apply_over(plan_.background, image);
+    }
+    if (phases_) phases_->scramble(image, oval);
+    if (window_) window_->show(plan_.background, image);
+    if (plan_.luminance) luminance_.add(image, measured);
     if (kind_ == design::ControlKind::kUpsideDown) turn_upside_down(image);
-    if (phases_) phases_->scramble(image);
     look_for_change(image);
     if (measured_) measures_.push_back(meter_.measure(image));
     const int height = std::min(kThumb_px, image.height_px);

@@ -184,7 +184,7 @@ class Answers:
         about = {name: {"Description": text} for name, text in names.items()}
         about["StimulusPresentation"] = software
         with open(folder / f"{stem}_events.json", "x", encoding="utf-8") as file:
-            json.dump(about, file, indent=2)
+            file.write(json.dumps(about, indent=2))
         self.keep()
 
     def keep(self):
