@@ -101,6 +101,23 @@ void add_sound(const ConditionSet& set, const Parameters& values, Condition& con
     condition.audio_start_s = start.get<double>();
 }
 
+/// The value of the parameter of match/motion in a condition; 1 when nothing can find it.
+Given matched_intensity(const Design& design, const ConditionSet& set,
+                        const std::vector<Given>& given, const FindIntensity& find) {
+    const std::string& name = design.match.motion->of;
+    const auto with = [&](double intensity) {
+        std::vector<Given> all = given;
+        all.push_back({name, JsonCursor::from_json(json_number(intensity), set.place)});
+        return all;
+    };
+    if (!find) return with(1).back();
+    const auto script_at = [&](double intensity) {
+        return Parameters(with(intensity)).filled(set.script);
+    };
+    const double share = Parameters(with(1)).at(kSeenStep).get<double>();
+    return with(find(share, script_at, set.script.folder(), set.place)).back();
+}
+
 /// Adds a clip and checks that its name is unique, also without regard to case.
 class Names {
   public:
@@ -162,7 +179,7 @@ std::string clip_word(const std::string& text) {
     return out;
 }
 
-std::vector<Condition> conditions_of(const Design& design) {
+std::vector<Condition> conditions_of(const Design& design, const FindIntensity& find) {
     long all = 0;
     std::vector<std::vector<long>> wanted;
     for (const ConditionSet& set : design.sets) {
@@ -190,6 +207,7 @@ std::vector<Condition> conditions_of(const Design& design) {
             for (const Override& one : set.overrides)
                 if (holds(one.when, before))
                     given.insert(given.end(), one.set.begin(), one.set.end());
+            if (design.match.motion) given.push_back(matched_intensity(design, set, given, find));
             const Parameters values(given);
 
             Condition condition;

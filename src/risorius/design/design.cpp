@@ -173,8 +173,15 @@ LuminanceMatch read_luminance(const JsonCursor& json) {
 }
 
 Match read_match(const JsonCursor& json) {
-    json.allow_keys({"luminance", "loudness"});
+    json.allow_keys({"luminance", "loudness", "motion"});
     Match match;
+    if (const auto motion = json.find("motion")) {
+        motion->allow_keys({"share", "of"});
+        match.motion = {.share = motion->at("share").items(), .of = motion->at("of").string()};
+        for (const JsonCursor& share : match.motion->share) share.number({0.01, 1});
+        if (match.motion->share.empty()) motion->at("share").fail("at least one share", "none");
+        if (!is_parameter_name(match.motion->of)) motion->at("of").fail("the name of a parameter");
+    }
     if (const auto luminance = json.find("luminance")) {
         match.luminance = read_luminance(*luminance);
     }
@@ -258,6 +265,9 @@ Design read_design(const std::filesystem::path& file) {
             set.at("name").fail("every set's name once",
                                 risorius::in_quotes(design.sets.back().name) + " again");
     }
+    if (design.match.motion)
+        for (ConditionSet& set : design.sets)
+            set.factors.push_back({.name = kSeenStep, .levels = design.match.motion->share});
     if (design.sets.empty()) json.at("sets").fail("at least one set of conditions", "none");
     if (design.experiment) check_experiment(json.at("experiment"), design);
     return design;

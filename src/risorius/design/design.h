@@ -75,8 +75,16 @@ struct LuminanceMatch {
     bool allow_clipping = false;  ///< whether more is a note instead of an error
 };
 
+/// Makes steps of intensity equal as they are seen: adds the factor "seen_step", and sets a parameter by search.
+struct MotionMatch {
+    std::vector<JsonCursor>
+        share;       ///< levels of the factor: shares of the motion at full intensity, (0, 1]
+    std::string of;  ///< the parameter, an intensity
+};
+
 /// What is made equal in all clips.
 struct Match {
+    std::optional<MotionMatch> motion;
     std::optional<LuminanceMatch> luminance;
     std::optional<double> loudness_lufs;  ///< target loudness of the sound of each clip
 };

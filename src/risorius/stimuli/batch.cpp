@@ -18,6 +18,7 @@
 #include "risorius/report/stopwatch.h"
 #include "risorius/stimuli/detail/experiment_files.h"
 #include "risorius/stimuli/detail/luminance_match.h"
+#include "risorius/stimuli/detail/motion_match.h"
 #include "risorius/stimuli/detail/own_files.h"
 #include "risorius/stimuli/detail/stimulus_set.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
@@ -120,7 +121,12 @@ BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped)
             plan.balances.emplace_back(set.name, design::balance_of(set, design.seed));
     plan.inputs = std::make_shared<animate::RenderInputs>(stopped);
     SoundPlans sounds;
-    for (const design::Condition& condition : design::conditions_of(design))
+    MotionMatch motion(design.clips.quality, *plan.inputs, {.progress = {}, .stopped = stopped});
+    const auto find = [&](double share, const std::function<Json(double)>& script_at,
+                          const fs::path& folder, const std::string& place) {
+        return motion.intensity_for(share, script_at, folder, place);
+    };
+    for (const design::Condition& condition : design::conditions_of(design, find))
         plan.clips.push_back(plan_clip(condition, design, *plan.inputs, sounds));
     share_renders(plan.clips);
     check_experiment(plan);

@@ -2,7 +2,6 @@
 #include "risorius/stimuli/detail/clip.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -24,6 +23,7 @@
 #include "risorius/media/video_writer.h"
 #include "risorius/media/wav_file.h"
 #include "risorius/stimuli/detail/clip_pictures.h"
+#include "risorius/stimuli/detail/expression_script.h"
 #include "risorius/stimuli/detail/frame_columns.h"
 #include "risorius/stimuli/detail/seen_motion.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
@@ -390,54 +390,9 @@ void find_commanded(const track::ScriptDescription& script, ShownClip& shown) {
     if (strongest) shown.commanded_apex_s = strongest->start_s + strongest->onset_s;
 }
 
-/// Whether a channel is an action unit.
-bool is_unit(const std::string& channel) {
-    return channel.size() > 2 && channel.starts_with("AU") &&
-           std::isdigit(static_cast<unsigned char>(channel[2]));
-}
-
-/// The script with its expressions and units scaled so that the largest is 1, in a healthy face and without anything else that moves;
-/// none when it has neither.
-std::optional<Json> script_at_full_intensity(Json script) {
-    for (const char* key : {"weakness", "late_s", "view", "emg"}) script.erase(key);
-    Json events = Json::array();
-    double most = 0;
-    if (script.contains("events"))
-        for (const Json& event : script.at("events"))
-            if (event.contains("expression")) {
-                most = std::max(most, event.value("intensity", 1.0));
-                events.push_back(event);
-            }
-    Json channels = Json::object();
-    if (script.contains("channels"))
-        for (const auto& [name, channel] : script.at("channels").items())
-            if (is_unit(name) && channel.contains("keys")) {
-                for (const Json& key : channel.at("keys"))
-                    most = std::max(most, key.at(1).get<double>());
-                channels[name] = channel;
-            }
-    if (!(most > 0)) return {};
-    for (Json& event : events) event["intensity"] = event.value("intensity", 1.0) / most;
-    for (Json& channel : channels)
-        for (Json& key : channel["keys"]) key[1] = key.at(1).get<double>() / most;
-    // When there is one expression, its course does not matter; so all clips of a head with it share the measurement.
-    if (channels.empty() && events.size() == 1) {
-        Json& event = events[0];
-        event["start_s"] = 0;
-        event["onset_s"] = 0.1;
-        event["hold_s"] = 1;
-        event["offset_s"] = 0.1;
-        script["duration_s"] = 0.5;
-        script["fps"] = 10;
-    }
-    script["events"] = events;
-    script["channels"] = channels;
-    return script;
-}
-
 /// SeenMotion::full_mm of a clip.
 std::optional<double> full_motion_mm(const ClipPlan& plan, const ClipWorker& worker) {
-    const std::optional<Json> script = script_at_full_intensity(plan.condition.script);
+    const std::optional<Json> script = expression_at_full_intensity(plan.condition.script);
     if (!script) return {};
     ClipPlan full = plan;
     full.condition.script = *script;

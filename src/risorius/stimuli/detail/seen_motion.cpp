@@ -14,7 +14,7 @@ namespace {
 // Half a pixel in a picture of 512 pixels, and 100 times the accuracy of a simulation step
 constexpr double kOnset_mm = 0.3, kOnsetFraction = 0.05;
 constexpr double kApexFraction = 0.99;  // a held face still moves by micrometres
-constexpr double kLeast_mm = 0.1;       // less is no movement
+constexpr double kNoMovement_mm = 0.1;       // less is no movement
 constexpr double kBlinkFraction = 0.8, kGaze_deg = 1;
 constexpr std::array kSkull{"v",   "op",   "eu_l", "eu_r",  "t_l",
                             "t_r", "sa_l", "sa_r", "sba_l", "sba_r"};
@@ -184,7 +184,7 @@ SeenMotion seen_motion(const animate::FrameRows& rows,
     }
     find_other_onsets(rows, landmarks, order, out);
     if (twin) out.blink_onset = blink_onset(*twin, order);
-    const bool moves = farthest.mm >= kLeast_mm;
+    const bool moves = farthest.mm >= kNoMovement_mm;
     if (!moves && !out.head_onset && !out.blink_onset && !out.gaze_onset) return out;
     out.seen_mm = farthest.mm;
     out.landmark = farthest.landmark;
