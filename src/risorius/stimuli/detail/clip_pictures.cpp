@@ -6,6 +6,8 @@
 #include <cstdio>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_cursor.h"
+#include "risorius/media/face_filter.h"
 #include "risorius/media/sync_marks.h"
 #include "risorius/report/contact_sheet.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
@@ -18,7 +20,9 @@ namespace {
 
 constexpr int kStrip = 5, kThumb_px = 120;
 constexpr int kPhotodiode_px = 64;
-constexpr double kSeenChange = 1e-7;  // mean of squared differences of relative luminance
+constexpr unsigned kNextFrame = 0x9E3779B9;
+constexpr double kLeastPxPerCycle = 4;  // an octave below half the sampling rate
+constexpr double kSeenChange = 1e-7;    // mean of squared differences of relative luminance
 
 /// A fixed window that contains the landmarks of eyes or mouth in all frames.
 Window window_around(const animate::FrameRows& rows, design::ControlKind kind,
@@ -71,6 +75,15 @@ std::optional<std::string> shown(const std::string& column, const media::Picture
     return {};
 }
 
+/// The distance of the landmarks zy_l and zy_r in the first frame, px.
+double width_of_face(const animate::FrameRows& rows, const std::string& place) {
+    const int left = rows.column("zy_l.u_px"), right = rows.column("zy_r.u_px");
+    if (left < 0 || right < 0)
+        throw Error(place, "a rig with the landmarks zy_l and zy_r", "none to measure the face by");
+    return std::hypot(rows.number(0, left) - rows.number(0, right),
+                      rows.number(0, left + 1) - rows.number(0, right + 1));
+}
+
 bool is_of_landmark(const std::string& column) {
     return column.ends_with(".x_mm") || column.ends_with(".y_mm") || column.ends_with(".z_mm") ||
            column.ends_with(".u_px") || column.ends_with(".v_px");
@@ -95,11 +108,11 @@ void Window::show(const std::array<std::uint8_t, 3>& outside, Image& image) cons
 bool needs_all_frames(const ClipPlan& plan) {
     const ControlKind kind = plan.condition.control.kind;
     return shows_other_order(kind) || shows_part(kind) ||
-           (kind == ControlKind::kPhaseScrambled && !plan.luminance);
+           (plan.condition.control.changes_the_oval() && !plan.luminance);
 }
 
 bool ClipPictures::has_layers(const ClipPlan& plan) {
-    return plan.luminance || plan.condition.control.kind == ControlKind::kPhaseScrambled;
+    return plan.luminance || plan.condition.control.changes_the_oval();
 }
 
 bool shows_other_order(design::ControlKind kind) {
@@ -174,10 +187,44 @@ void ClipPictures::look_for_change(const Image& image) {
     if (count > 0 && sum / count > kSeenChange) pixel_onset_ = written_;
 }
 
+void ClipPictures::change_oval(const std::vector<float>& oval, int frame, Image& image) {
+    const design::Control& control = plan_.condition.control;
+    switch (kind_) {
+        case ControlKind::kPhaseScrambled:
+            phases_->scramble(image, oval);
+            break;
+        case ControlKind::kLowPass:
+        case ControlKind::kHighPass: {
+            const double face_px = width_of_face(*rows_, plan_.condition.clip);
+            if (face_px < kLeastPxPerCycle * control.cycles_per_face)
+                throw Error(plan_.condition.clip,
+                            "a face of " +
+                                format_number(kLeastPxPerCycle * control.cycles_per_face) +
+                                " px or more for this cycles_per_face",
+                            format_number(std::round(face_px)) + " px");
+            media::filter({.high = kind_ == ControlKind::kHighPass,
+                           .cut_cycles_per_px = control.cycles_per_face / face_px,
+                           .order = control.order,
+                           .keep_sd = control.keep_contrast},
+                          oval, image);
+            break;
+        }
+        case ControlKind::kNoise:
+            media::add_noise(control.snr_db,
+                             plan_.condition.seed + kNextFrame * static_cast<unsigned>(frame), oval,
+                             image);
+            break;
+        default:  // the oval alone
+            media::keep_weighted(oval, plan_.background, image);
+            break;
+    }
+}
+
 void ClipPictures::write(Image image, int frame) {
     std::vector<float> measured, oval;
     if (plan_.luminance) measured = measured_weights(plan_, *rows_, frame, image);
-    if (phases_) oval = weights_in_oval(plan_, *rows_, frame, image);
+    if (plan_.condition.control.changes_the_oval())
+        oval = weights_in_oval(plan_, *rows_, frame, image);
     if (tone_) cut_off_ += tone_->cut_off(image, measured);
     if (layered_) {
         const media::ToneCurve curve = tone_.value_or(media::ToneCurve(media::Tone{}));
@@ -186,7 +233,7 @@ void ClipPictures::write(Image image, int frame) {
         else
             curve.apply_over(plan_.background, image);
     }
-    if (phases_) phases_->scramble(image, oval);
+    if (!oval.empty()) change_oval(oval, frame, image);
     if (window_) window_->show(plan_.background, image);
     if (plan_.luminance) luminance_.add(image, measured);
     if (kind_ == design::ControlKind::kUpsideDown) turn_upside_down(image);

@@ -66,6 +66,7 @@ class ClipPictures {
 
   private:
     void write(Image image, int frame);
+    void change_oval(const std::vector<float>& oval, int frame, Image& image);
     void look_for_change(const Image& image);
 
     const ClipPlan& plan_;

@@ -14,7 +14,7 @@ namespace {
 // Half a pixel in a picture of 512 pixels, and 100 times the accuracy of a simulation step
 constexpr double kOnset_mm = 0.3, kOnsetFraction = 0.05;
 constexpr double kApexFraction = 0.99;  // a held face still moves by micrometres
-constexpr double kNoMovement_mm = 0.1;       // less is no movement
+constexpr double kNoMovement_mm = 0.1;  // less is no movement
 constexpr double kBlinkFraction = 0.8, kGaze_deg = 1;
 constexpr std::array kSkull{"v",   "op",   "eu_l", "eu_r",  "t_l",
                             "t_r", "sa_l", "sa_r", "sba_l", "sba_r"};
