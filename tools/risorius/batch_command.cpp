@@ -105,19 +105,22 @@ void run(BatchArguments& arguments) {
         if (arguments.slurm.tasks < 1 || arguments.slurm.tasks > 10000)
             throw Error("--tasks", "tasks of the array, 1 to 10000",
                         std::to_string(arguments.slurm.tasks));
-        arguments.slurm.part_command = [](const std::filesystem::path& design,
-                                          const std::filesystem::path& out, int workers,
-                                          const std::string& part) {
-            return std::vector<std::string>{std::filesystem::canonical("/proc/self/exe").string(),
-                                            "batch",
-                                            design.string(),
-                                            "--out",
-                                            out.string(),
-                                            "--workers",
-                                            std::to_string(workers),
-                                            "--part",
-                                            part,
-                                            "--json"};
+        arguments.slurm.part_command = [replace = options.replace](
+                                           const std::filesystem::path& design,
+                                           const std::filesystem::path& out, int workers,
+                                           const std::string& part) {
+            std::vector<std::string> words{std::filesystem::canonical("/proc/self/exe").string(),
+                                           "batch",
+                                           design.string(),
+                                           "--out",
+                                           out.string(),
+                                           "--workers",
+                                           std::to_string(workers),
+                                           "--part",
+                                           part,
+                                           "--json"};
+            if (replace) words.emplace_back("--replace");
+            return words;
         };
         arguments.slurm.workers = options.workers;
     }
