@@ -99,6 +99,8 @@ TEST_F(Designs, DrawTheSameWhateverElseThereIs) {
         R"({"factors": {"intensity": {"draw": [0.3, 0.9], "count": 20}, "expression": ["fear"]}})");
     const std::set<double> once = values(conditions(json));
     EXPECT_EQ(once.size(), 20u);
+    for (const std::string& clip : clips(conditions(json)))
+        EXPECT_LE(clip.size(), std::string("fear0p1234").size()) << "four digits of a drawn number";
     EXPECT_GE(*once.begin(), 0.3);
     EXPECT_LT(*once.rbegin(), 0.9);
     EXPECT_GT(*once.rbegin() - *once.begin(), 0.3);
@@ -268,14 +270,44 @@ TEST_F(Designs, MatchingNeedsSomethingToMatchTo) {
               "no error");
     EXPECT_EQ(read(json).match.loudness_lufs, -23);
     EXPECT_EQ(with(R"({"luminance": {"one_for": "clip"}})"), "no error");
-    EXPECT_EQ(with(R"({"luminance": {"within": "face"}})"),
+    EXPECT_EQ(with(R"({"luminance": {"within": "face"}})"), "no error") << "one map for each head";
+    EXPECT_EQ(with(R"({"luminance": {"within": "picture"}})"),
               "design.json:/match/luminance: expected \"mean\" or \"sd\" to match all clips to, or "
-              "\"one_for\": \"clip\", found none of them");
+              "\"one_for\": \"identity\" or \"clip\", found none of them");
+    EXPECT_NE(with(R"({"motion": {"share": [0.5, 1.5], "of": "intensity"}})")
+                  .find("/match/motion/share/1: expected"),
+              std::string::npos);
+    with(R"({"motion": {"share": [0.5, 1], "of": "intensity"}})");
+    EXPECT_EQ(read(json).sets[0].factors.back().name, "seen_step");
     EXPECT_NE(with(R"({"luminance": {"mean": 1.5}})").find("/match/luminance/mean: expected"),
               std::string::npos);
     EXPECT_NE(with(R"({"luminance": {"within": "eyes", "mean": 0.3}})").find("/within: expected"),
               std::string::npos);
     EXPECT_NE(with(R"({"contrast": {}})").find("/match/contrast: "), std::string::npos);
+}
+
+TEST_F(Designs, LosslessClipsHaveNoQualityToChoose) {
+    Json json = design();
+    json["clips"] = {{"lossless", true}, {"crf", 14}};
+    EXPECT_EQ(complaint(json),
+              "design.json:/clips/crf: expected no crf beside \"lossless\": true, which has no "
+              "quality to choose, found 14");
+}
+
+TEST_F(Designs, ControlsOfTheOvalNeedTheirNumbers) {
+    Json json = design();
+    const auto with = [&](const char* control) {
+        json["sets"][0]["controls"] = Json::array({Json::parse(control)});
+        return complaint(json);
+    };
+    EXPECT_NE(with(R"("low_pass")").find("\"cycles_per_face\""), std::string::npos);
+    EXPECT_NE(with(R"("noise")").find("\"snr_db\""), std::string::npos);
+    EXPECT_NE(with(R"({"control": "noise", "snr_db": 50})").find("/snr_db: expected"),
+              std::string::npos);
+    EXPECT_EQ(with(R"({"control": "noise", "snr_db": -6})"), "no error");
+    EXPECT_EQ(with(R"({"control": "high_pass", "cycles_per_face": 32, "contrast": "rms"})"),
+              "no error");
+    EXPECT_EQ(with(R"("oval")"), "no error");
 }
 
 TEST_F(Designs, ExperimentsAskForKeysAndKnownSets) {

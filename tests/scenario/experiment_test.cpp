@@ -3,7 +3,9 @@
 // played by the real jsPsych in a real browser.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -104,51 +106,131 @@ TEST_F(Experiment, SoundIsAsLoudAsAskedForInTableClipAndFile) {
     EXPECT_EQ(alone.samples[1599], 0);
     EXPECT_NE(alone.samples[1601], 0);
     // Samples of 16 bits
-    EXPECT_NEAR(media::loudness_of(alone).integrated_lufs, -30, 0.01);
+    media::Sound recording = alone;
+    recording.samples.erase(recording.samples.begin(), recording.samples.begin() + 1600);
+    EXPECT_NEAR(media::loudness_of(recording).integrated_lufs, -30, 0.01);
     const media::Sound coded = media::read_sound(stimuli / "stim-fear_audiovideo.mp4");
     EXPECT_NEAR(media::loudness_of(coded).integrated_lufs, -30, 0.5) << "AAC";
     EXPECT_NE(text_of(stimuli / "stimuli.tsv").find("\t-30\t"), std::string::npos);
     EXPECT_TRUE(fs::exists(stimuli / "stim-happiness_video.mp4"));
 }
 
-TEST_F(Experiment, OfPsychoPyShowsEveryFrameAndSendsItsCodes) {
+/// The files in experiment/data with an ending.
+std::vector<fs::path> data_files(const fs::path& experiment, const std::string& ending) {
+    std::vector<fs::path> out;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(experiment / "data", none))
+        if (entry.path().filename().string().ends_with(ending)) out.push_back(entry.path());
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+/// Plays experiment.py on a screen of so many hertz.
+report::ProgramResult play(const fs::path& experiment, const std::string& hz) {
+    return run_program({"env", "PYTHONPATH=" + (kStandIns / "stand_in").string(),
+                        "PYTHONDONTWRITEBYTECODE=1", "STAND_IN_HZ=" + hz, "python3",
+                        (experiment / "experiment.py").string(), "--participant", "7", "--window"});
+}
+
+/// The codes that triggers.tsv has for a clip, as "1@0.0000 0@0.0167 ..." with pulses of `pulse_s`.
+std::string codes_in_table(const fs::path& set, const std::string& clip, double pulse_s) {
+    std::istringstream table(text_of(set / "triggers.tsv"));
+    std::string line, out;
+    while (std::getline(table, line)) {
+        std::istringstream cells(line);
+        std::string id, event, code, frame, time, merged;
+        for (std::string* cell : {&id, &event, &code, &frame, &time, &merged})
+            std::getline(cells, *cell, '\t');
+        if (id != clip || merged != "n/a") continue;
+        char text[64];
+        std::snprintf(text, sizeof text, "%s%s@%.4f 0@%.4f", out.empty() ? "" : " ", code.c_str(),
+                      std::stod(time), std::stod(time) + pulse_s);
+        out += text;
+    }
+    return out;
+}
+
+TEST_F(Experiment, OfPsychoPyShowsEveryFrameAndSendsTheCodesOfTheTable) {
     if (run_program({"python3", "--version"}).exit_code != 0) GTEST_SKIP() << "no python3 here";
     const fs::path here = *folder / "set/experiment";
-    report::ProgramResult result = run_program(
-        {"env", "PYTHONPATH=" + (kStandIns / "stand_in").string(), "PYTHONDONTWRITEBYTECODE=1",
-         "python3", (here / "experiment.py").string(), "--participant", "7", "--window"});
-    ASSERT_EQ(result.exit_code, 0) << result.output;
-    std::istringstream data(text_of(here / "data/7.csv"));
-    std::string line;
-    std::getline(data, line);
-    int trials = 0;
-    for (; std::getline(data, line); ++trials) {
-        // Begin, onset and apex as the clip's record says, end after 6 frames of 0.1 s
-        const bool happy = line.find("happiness,stim") != std::string::npos;
-        const Json clip = Json::parse(
-            text_of(*folder / "set/stimuli" /
-                    (happy ? "stim-happiness_video.json" : "stim-fear_audiovideo.json")));
-        const int onset = clip.at("movement_onset_frame"), apex = clip.at("apex_frame");
-        EXPECT_TRUE(onset == 1 || onset == 2) << onset;
-        EXPECT_TRUE(apex == 4 || apex == 5) << apex;
-        EXPECT_NE(line.find(",1@0.0000 2@0." + std::to_string(onset) + "000 3@0." +
-                            std::to_string(apex) + "000 4@0.6000,0"),
-                  std::string::npos)
-            << line;
-        EXPECT_NE(line.find(happy ? ",a,happiness,1," : ",a,happiness,0,"), std::string::npos)
-            << line;
+    for (const auto& [hz, pulse_s] : {std::pair{"60", 1 / 60.0}, std::pair{"120", 2 / 120.0}}) {
+        const std::vector<fs::path> before = data_files(here, ".csv");
+        std::map<fs::path, std::string> texts;
+        for (const fs::path& file : before) texts[file] = text_of(file);
+        const report::ProgramResult result = play(here, hz);
+        ASSERT_EQ(result.exit_code, 0) << result.output;
+        // A second run of a participant leaves the first one's data
+        const std::vector<fs::path> after = data_files(here, ".csv");
+        ASSERT_EQ(after.size(), before.size() + 1);
+        for (const auto& [file, text] : texts) EXPECT_EQ(text_of(file), text);
+        std::istringstream data(text_of(after.back()));
+        std::string line;
+        std::getline(data, line);
+        int trials = 0;
+        for (; std::getline(data, line); ++trials) {
+            const bool happy = line.find("happiness,stim") != std::string::npos;
+            EXPECT_NE(
+                line.find("," +
+                          codes_in_table(*folder / "set", happy ? "happiness" : "fear", pulse_s) +
+                          ",0,0.00"),
+                std::string::npos)
+                << line;
+            EXPECT_NE(line.find(happy ? ",a,happiness,1," : ",a,happiness,0,"), std::string::npos)
+                << line;
+            EXPECT_NE(line.find(",0.0500,1@"), std::string::npos)
+                << "a fixation of 0.05 s, although decoding takes time: " << line;
+        }
+        EXPECT_EQ(trials, 2);
     }
-    EXPECT_EQ(trials, 2);
-    // A clip of another length than the table says
-    std::string table = text_of(here / "conditions.csv");
+    EXPECT_EQ(data_files(here, "_events.tsv").size(), 2u);
+    EXPECT_EQ(text_of(data_files(here, "_events.tsv").front())
+                  .find("onset\tduration\ttrial_type\tresponse_time\tstimulus_id\t"),
+              0u);
+}
+
+TEST_F(Experiment, OfPsychoPyChecksEverythingBeforeItOpensAFile) {
+    if (run_program({"python3", "--version"}).exit_code != 0) GTEST_SKIP() << "no python3 here";
+    const fs::path here = *folder / "set/experiment";
+    const std::size_t before = data_files(here, ".csv").size();
+    for (const char* hz : {"144", "75"}) {
+        const report::ProgramResult result = play(here, hz);
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_NE(result.output.find("do not divide the screen's"), std::string::npos)
+            << result.output;
+    }
+    EXPECT_EQ(data_files(here, ".csv").size(), before);
+}
+
+TEST_F(Experiment, OfPsychoPyFailsForAClipOfAnotherLength) {
+    if (run_program({"python3", "--version"}).exit_code != 0) GTEST_SKIP() << "no python3 here";
+    const fs::path here = *folder / "set/experiment";
+    const std::string whole = text_of(here / "conditions.csv");
+    std::string table = whole;
     for (std::size_t at; (at = table.find(",6,10,")) != std::string::npos;)
         table.replace(at, 6, ",7,10,");
     std::ofstream(here / "conditions.csv") << table;
-    result = run_program({"env", "PYTHONPATH=" + (kStandIns / "stand_in").string(),
-                          "PYTHONDONTWRITEBYTECODE=1", "python3", (here / "experiment.py").string(),
-                          "--window"});
+    const report::ProgramResult result = play(here, "60");
+    std::ofstream(here / "conditions.csv") << whole;
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_NE(result.output.find("expected 7 frames, found 6"), std::string::npos) << result.output;
+}
+
+TEST_F(Experiment, ThatWasEditedStaysAndTheNewOneIsBesideIt) {
+    const fs::path program = *folder / "set/experiment/experiment.py";
+    const std::string whole = text_of(program);
+    std::ofstream(program, std::ios::app) << "# mine\n";
+    stimuli::BatchOptions options;
+    options.design = *folder / "design.json";
+    options.out = *folder / "set";
+    options.workers = 1;
+    EXPECT_EQ(stimuli::make_batch(options).changed,
+              std::vector<std::string>{"experiment/experiment.py"});
+    EXPECT_EQ(text_of(program), whole + "# mine\n");
+    EXPECT_EQ(text_of(*folder / "set/experiment/experiment.py.new"), whole);
+    options.replace = true;
+    EXPECT_TRUE(stimuli::make_batch(options).changed.empty());
+    EXPECT_EQ(text_of(program), whole);
+    EXPECT_FALSE(fs::exists(*folder / "set/experiment/experiment.py.new"));
 }
 
 TEST_F(Experiment, OfJsPsychIsPlayedInABrowserToItsEnd) {
@@ -171,9 +253,10 @@ TEST_F(Experiment, OfJsPsychIsPlayedInABrowserToItsEnd) {
         if (task == "clip") {
             shown.insert(trial.at("stim_id").get<std::string>());
             EXPECT_GT(trial.at("frames_seen").get<int>(), 0);
+            EXPECT_EQ(trial.at("flag"), trial.at("frames_seen") < 5 ? "frames_missing" : "");
             EXPECT_EQ(trial.at("participant"), "7");
         }
-        if (task != "answer") continue;
+        if (task != "answer" || trial.at("repeated")) continue;
         ++answered;
         EXPECT_EQ(trial.at("answer"), "happiness");
         EXPECT_EQ(trial.at("correct"), trial.at("stim_id") == "happiness");

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -89,7 +90,12 @@ TEST_F(Batch, MakesTheSameBytesHoweverItGoes) {
     std::ofstream(video, std::ios::app) << "x";
     options.design = design("design.json", {1, 0.8, 0.5});
     fs::remove(options.out / "stimuli/stim-smile0p5_video.json");
+    // Files that may be somebody's are replaced on request only
+    EXPECT_NE(message_of([&] { make_batch(options); }).find("as `batch` has written it"),
+              std::string::npos);
+    options.replace = true;
     const BatchReport other = make_batch(options);
+    options.replace = false;
     EXPECT_EQ(other.made, 3);
     EXPECT_EQ(text_of(video), smile);
     EXPECT_FALSE(fs::exists(options.out / "stimuli/stim-smile1Reversed_video.mkv"));
@@ -235,6 +241,52 @@ TEST_F(Batch, RefusesBeforeAnythingIsMade) {
     EXPECT_NE(complaint(design("good.json", {0.5}), folder().path() / "mine")
                   .find("expected an empty folder, or one that `batch` has begun"),
               std::string::npos);
+}
+
+TEST_F(Batch, FiltersAndNoiseChangeTheOvalAlone) {
+    Json json = Json::parse(text_of(design("oval.json", {1}, R"([
+        {"control": "low_pass", "cycles_per_face": 3}, {"control": "high_pass", "cycles_per_face": 3},
+        {"control": "noise", "snr_db": 0}, "oval"])")));
+    json["clips"].erase("photodiode");
+    std::ofstream(folder().path() / "oval.json") << json.dump();
+    const BatchOptions options{
+        .design = folder().path() / "oval.json", .out = folder().path() / "oval", .workers = 2};
+    EXPECT_EQ(make_batch(options).made, 5);
+    const auto frame_of = [&](const char* clip) {
+        return media::VideoReader(options.out /
+                                  ("stimuli/stim-smile1" + std::string(clip) + "_video.mkv"))
+            .frame(2);
+    };
+    const Image plain = frame_of(""), oval = frame_of("Oval");
+    const animate::FrameRows rows =
+        animate::frame_rows(text_of(options.out / "stimuli/stim-smile1_annot-frames_events.tsv"));
+    const int u = rows.column("prn.u_px");
+    const int nose_x = static_cast<int>(rows.number(2, u)),
+              nose_y = static_cast<int>(rows.number(2, u + 1));
+    EXPECT_TRUE(std::equal(oval.pixel(nose_x, nose_y), oval.pixel(nose_x, nose_y) + 3,
+                           plain.pixel(nose_x, nose_y)));
+    const int neck_y = 62;
+    EXPECT_NE(plain.pixel(24, neck_y)[0], 128) << "the neck";
+    EXPECT_EQ(oval.pixel(24, neck_y)[0], 128);
+    for (const char* clip : {"LowPass3", "HighPass3", "Noise0"}) {
+        const Image image = frame_of(clip);
+        int changed = 0;
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 48; ++x) {
+                const int difference = std::abs(image.pixel(x, y)[1] - plain.pixel(x, y)[1]);
+                changed += difference > 2;
+                if (y == neck_y || y < 3) EXPECT_LE(difference, 1) << clip << " " << x << " " << y;
+            }
+        EXPECT_GT(changed, 200) << clip;
+    }
+    json["sets"][0]["controls"] =
+        Json::parse(R"([{"control": "low_pass", "cycles_per_face": 30}])");
+    std::ofstream(folder().path() / "oval.json") << json.dump();
+    const BatchReport report = make_batch(options);
+    ASSERT_EQ(report.failed.size(), 1u);
+    EXPECT_NE(report.failed[0].second.find("expected a face of 120 px or more for this"),
+              std::string::npos)
+        << report.failed[0].second;
 }
 
 TEST_F(Batch, NotesWhatMayNotBeMeant) {

@@ -105,19 +105,22 @@ void run(BatchArguments& arguments) {
         if (arguments.slurm.tasks < 1 || arguments.slurm.tasks > 10000)
             throw Error("--tasks", "tasks of the array, 1 to 10000",
                         std::to_string(arguments.slurm.tasks));
-        arguments.slurm.part_command = [](const std::filesystem::path& design,
-                                          const std::filesystem::path& out, int workers,
-                                          const std::string& part) {
-            return std::vector<std::string>{std::filesystem::canonical("/proc/self/exe").string(),
-                                            "batch",
-                                            design.string(),
-                                            "--out",
-                                            out.string(),
-                                            "--workers",
-                                            std::to_string(workers),
-                                            "--part",
-                                            part,
-                                            "--json"};
+        arguments.slurm.part_command = [replace = options.replace](
+                                           const std::filesystem::path& design,
+                                           const std::filesystem::path& out, int workers,
+                                           const std::string& part) {
+            std::vector<std::string> words{std::filesystem::canonical("/proc/self/exe").string(),
+                                           "batch",
+                                           design.string(),
+                                           "--out",
+                                           out.string(),
+                                           "--workers",
+                                           std::to_string(workers),
+                                           "--part",
+                                           part,
+                                           "--json"};
+            if (replace) words.emplace_back("--replace");
+            return words;
         };
         arguments.slurm.workers = options.workers;
     }
@@ -142,6 +145,10 @@ void run(BatchArguments& arguments) {
         std::printf("%s: %d clips made, %d kept, %zu failed, %s\n", options.out.string().c_str(),
                     report.made, report.kept, report.failed.size(),
                     time_text(report.seconds).c_str());
+        for (const std::string& note : report.notes) std::printf("note: %s\n", note.c_str());
+        for (const std::string& file : report.changed)
+            std::printf("note: %s was changed and stays; the new one is %s.new\n", file.c_str(),
+                        file.c_str());
         if (report.complete)
             std::printf("open %s\n", (options.out / "index.html").string().c_str());
         else if (report.unmeasured > 0)
@@ -177,6 +184,11 @@ void add_batch(CLI::App& app) {
         "--plan", arguments->plan,
         "Only check the design and print the number of clips, and estimates of time and size");
     command->add_flag("--list", arguments->list, "Only print the names of the clips, one per line");
+    command->add_flag(
+        "--replace", options.replace,
+        "Replace files of the set that were changed since they were made. Without it, "
+        "a changed clip is an error, and a changed program or table stays: the new "
+        "one is put beside it as NAME.new");
     command->add_option("--workers", options.workers, "Clips made at once")->capture_default_str();
     command->add_option(
         "--part", arguments->part,

@@ -13,6 +13,7 @@
 #include "risorius/animate/detail/marked_pictures.h"
 #include "risorius/animate/detail/pipeline.h"
 #include "risorius/animate/detail/read_checksums.h"
+#include "risorius/animate/detail/ready_face.h"
 #include "risorius/animate/detail/reference_run.h"
 #include "risorius/blendshapes/shape_player.h"
 #include "risorius/core/error.h"
@@ -103,22 +104,6 @@ face::FacePose turned(face::FacePose pose, double angle_rad) {
     for (Mat3& eye : pose.eye_rotation) eye = turn * eye;
     pose.head = turn * pose.head;
     return pose;
-}
-
-/// Mirrors vertical motion: each vertex is as far below its rest position as it was above it.
-void flip_motion(const Points& rest, face::FacePose& pose) {
-    pose.vertices.col(1) = 2 * rest.col(1) - pose.vertices.col(1);
-}
-
-/// The face of the session, prepared for the job's script.
-face::Face& ready_face(const RenderJob& job, RenderSession& session) {
-    const track::ScriptHeader& header = job.script.header;
-    face::Face& face = session.face(job.rig, face::quality_named(job.quality));
-    face.drive_jaw_by(header.jaw);
-    face.set_gravity(header.gravity_m_s2);
-    face.move(header.motion == track::Motion::kDynamic ? face::Motion::kDynamic
-                                                       : face::Motion::kQuasiStatic);
-    return face;
 }
 
 std::optional<blendshapes::ShapePlayer> player_of(const RenderJob& job, face::Face& face,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -43,6 +44,21 @@ void append_word(std::string word, std::string& name) {
     name += word;
 }
 
+bool is_drawn(const ConditionSet& set, const std::string& name) {
+    return std::any_of(set.factors.begin(), set.factors.end(),
+                       [&](const Factor& factor) { return factor.drawn && factor.name == name; });
+}
+
+/// A number with four significant digits, without an exponent.
+std::string four_digits(const Json& value) {
+    if (!value.is_number()) return json_text(value);
+    const double number = value.get<double>();
+    const int decimals =
+        number == 0 ? 0 : 3 - static_cast<int>(std::floor(std::log10(std::abs(number))));
+    const double unit = std::pow(10.0, decimals);
+    return format_number(std::round(number * unit) / unit);
+}
+
 /// The name of a clip. Each value is converted by clip_word(), so that signs and points become letters.
 std::string clip_name(const ConditionSet& set, const Parameters& values) {
     std::string out;
@@ -57,7 +73,11 @@ std::string clip_name(const ConditionSet& set, const Parameters& values) {
         const std::size_t end = set.clip.find('}', i);
         if (end == std::string::npos)
             throw Error(place, "${name of a parameter}", risorius::in_quotes(set.clip.substr(i)));
-        append_word(clip_word(values.filled_text(set.clip.substr(i, end + 1 - i), place)), out);
+        const std::string name = set.clip.substr(i + 2, end - i - 2);
+        append_word(clip_word(is_drawn(set, name)
+                                  ? four_digits(values.at(name))
+                                  : values.filled_text(set.clip.substr(i, end + 1 - i), place)),
+                    out);
         i = end + 1;
     }
     if (out.empty())
@@ -79,6 +99,23 @@ void add_sound(const ConditionSet& set, const Parameters& values, Condition& con
     const Json start = values.filled(*set.audio_start_s);
     if (!start.is_number()) set.audio_start_s->fail("a number", json_text(start));
     condition.audio_start_s = start.get<double>();
+}
+
+/// The value of the parameter of match/motion in a condition; 1 when nothing can find it.
+Given matched_intensity(const Design& design, const ConditionSet& set,
+                        const std::vector<Given>& given, const FindIntensity& find) {
+    const std::string& name = design.match.motion->of;
+    const auto with = [&](double intensity) {
+        std::vector<Given> all = given;
+        all.push_back({name, JsonCursor::from_json(json_number(intensity), set.place)});
+        return all;
+    };
+    if (!find) return with(1).back();
+    const auto script_at = [&](double intensity) {
+        return Parameters(with(intensity)).filled(set.script);
+    };
+    const double share = Parameters(with(1)).at(kSeenStep).get<double>();
+    return with(find(share, script_at, set.script.folder(), set.place)).back();
 }
 
 /// Adds a clip and checks that its name is unique, also without regard to case.
@@ -142,7 +179,7 @@ std::string clip_word(const std::string& text) {
     return out;
 }
 
-std::vector<Condition> conditions_of(const Design& design) {
+std::vector<Condition> conditions_of(const Design& design, const FindIntensity& find) {
     long all = 0;
     std::vector<std::vector<long>> wanted;
     for (const ConditionSet& set : design.sets) {
@@ -170,6 +207,7 @@ std::vector<Condition> conditions_of(const Design& design) {
             for (const Override& one : set.overrides)
                 if (holds(one.when, before))
                     given.insert(given.end(), one.set.begin(), one.set.end());
+            if (design.match.motion) given.push_back(matched_intensity(design, set, given, find));
             const Parameters values(given);
 
             Condition condition;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -34,9 +35,18 @@ struct Condition {
     double audio_start_s = 0;                    ///< the time of its first sample
 };
 
-/// Returns all clips of a design. Throws Error for names that are invalid or not unique, for unknown parameters and for too many
+/// The factor of match/motion.
+inline constexpr const char* kSeenStep = "seen_step";
+
+/// Returns the value of the parameter of match/motion for a share. `script_at`: the script of a condition with a value of it; `folder`:
+/// where its relative paths start; `place`: the condition in messages.
+using FindIntensity =
+    std::function<double(double share, const std::function<Json(double)>& script_at,
+                         const std::filesystem::path& folder, const std::string& place)>;
+
+/// Returns all clips of a design. `find`: needed when the design matches motion. Throws Error for names that are invalid or not unique, for unknown parameters and for too many
 /// conditions.
-std::vector<Condition> conditions_of(const Design& design);
+std::vector<Condition> conditions_of(const Design& design, const FindIntensity& find = {});
 
 /// Converts text to a part of a clip's name: "0.25" -> "0p25", "zygomaticus_major.l" -> "ZygomaticusMajorL", -3 -> "m3".
 std::string clip_word(const std::string& text);

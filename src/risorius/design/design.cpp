@@ -47,7 +47,7 @@ constexpr int kMaxLevels = 100000;
 constexpr double kBroadcastLufs = -23;  // EBU R 128
 
 Factor read_factor(const JsonCursor& json, const std::string& name, int seed) {
-    Factor factor{name, {}};
+    Factor factor{.name = name, .levels = {}};
     if (json.is_array()) {
         factor.levels = json.items();
     } else if (json.is_object() && json.has("draw")) {
@@ -58,6 +58,7 @@ Factor read_factor(const JsonCursor& json, const std::string& name, int seed) {
         std::vector<double> values;
         for (int i = 0; i < json.at("count").integer(1, kMaxLevels); ++i)
             values.push_back(min + (max - min) * chance(seed, name, i));
+        factor.drawn = true;
         factor.levels = made_levels(values, json);
     } else if (json.is_object()) {
         json.allow_keys({"from", "to", "steps"});
@@ -130,33 +131,59 @@ ConditionSet read_set(const JsonCursor& json, int seed) {
 }
 
 ClipOptions read_clips(const JsonCursor& json) {
-    json.allow_keys({"ending", "quality", "crf", "lossless", "landmarks", "photodiode"});
+    json.allow_keys(
+        {"ending", "quality", "crf", "lossless", "landmarks", "photodiode", "keyframe_interval"});
     ClipOptions clips;
     if (const auto v = json.find("ending")) clips.ending = v->one_of({"mp4", "mov", "mkv", "webm"});
     if (const auto v = json.find("quality"))
         clips.quality = v->one_of({"draft", "preview", "video", "fine"});
     if (const auto v = json.find("crf")) clips.crf = v->integer(0, 63);
     if (const auto v = json.find("lossless")) clips.lossless = v->boolean();
+    if (clips.lossless && clips.crf)
+        json.at("crf").fail("no crf beside \"lossless\": true, which has no quality to choose");
+    if (const auto v = json.find("keyframe_interval"))
+        clips.keyframe_interval = v->integer(1, kMaxLevels);
     if (const auto v = json.find("landmarks")) clips.landmarks = v->boolean();
     if (const auto v = json.find("photodiode")) clips.photodiode = v->string();
     return clips;
 }
 
+LuminanceMatch read_luminance(const JsonCursor& json) {
+    using OneFor = LuminanceMatch::OneFor;
+    json.allow_keys({"within", "one_for", "mean", "sd", "cut_limit", "allow_clipping"});
+    LuminanceMatch out;
+    if (const auto v = json.find("within"))
+        out.within_face = v->one_of({"picture", "face"}) == "face";
+    out.one_for = out.within_face ? OneFor::kIdentity : OneFor::kAll;
+    if (const auto v = json.find("one_for")) {
+        const std::string name = v->one_of({"all", "identity", "clip"});
+        out.one_for = name == "all"        ? OneFor::kAll
+                      : name == "identity" ? OneFor::kIdentity
+                                           : OneFor::kClip;
+    }
+    if (const auto v = json.find("mean")) out.mean = v->number({0.001, 0.999});
+    if (const auto v = json.find("sd")) out.sd = v->number({0.001, 0.5});
+    if (const auto v = json.find("cut_limit")) out.cut_limit = v->number({0, 1});
+    if (const auto v = json.find("allow_clipping")) out.allow_clipping = v->boolean();
+    if (out.one_for == OneFor::kAll && !out.mean && !out.sd)
+        json.fail(
+            "\"mean\" or \"sd\" to match all clips to, or \"one_for\": \"identity\" or \"clip\"",
+            "none of them");
+    return out;
+}
+
 Match read_match(const JsonCursor& json) {
-    json.allow_keys({"luminance", "loudness"});
+    json.allow_keys({"luminance", "loudness", "motion"});
     Match match;
+    if (const auto motion = json.find("motion")) {
+        motion->allow_keys({"share", "of"});
+        match.motion = {.share = motion->at("share").items(), .of = motion->at("of").string()};
+        for (const JsonCursor& share : match.motion->share) share.number({0.01, 1});
+        if (match.motion->share.empty()) motion->at("share").fail("at least one share", "none");
+        if (!is_parameter_name(match.motion->of)) motion->at("of").fail("the name of a parameter");
+    }
     if (const auto luminance = json.find("luminance")) {
-        luminance->allow_keys({"within", "one_for", "mean", "sd"});
-        LuminanceMatch& out = match.luminance.emplace();
-        if (const auto v = luminance->find("within"))
-            out.within_face = v->one_of({"picture", "face"}) == "face";
-        if (const auto v = luminance->find("one_for"))
-            out.per_clip = v->one_of({"all", "clip"}) == "clip";
-        if (const auto v = luminance->find("mean")) out.mean = v->number({0.001, 0.999});
-        if (const auto v = luminance->find("sd")) out.sd = v->number({0.001, 0.5});
-        if (!out.per_clip && !out.mean && !out.sd)
-            luminance->fail("\"mean\" or \"sd\" to match all clips to, or \"one_for\": \"clip\"",
-                            "none of them");
+        match.luminance = read_luminance(*luminance);
     }
     if (const auto loudness = json.find("loudness")) {
         loudness->allow_keys({"lufs"});
@@ -168,7 +195,7 @@ Match read_match(const JsonCursor& json) {
 
 ExperimentOptions read_experiment(const JsonCursor& json) {
     json.allow_keys({"programs", "question", "answers", "correct", "sets", "controls",
-                     "repetitions", "fixation_s", "jspsych_from"});
+                     "repetitions", "fixation_s", "answer_during", "jspsych_from"});
     ExperimentOptions out;
     for (const JsonCursor& one : json.at("programs").items())
         out.programs.push_back(one.one_of({"psychopy", "jspsych"}));
@@ -189,6 +216,7 @@ ExperimentOptions read_experiment(const JsonCursor& json) {
     if (const auto v = json.find("controls")) out.controls = v->boolean();
     if (const auto v = json.find("repetitions")) out.repetitions = v->integer(1, 1000);
     if (const auto v = json.find("fixation_s")) out.fixation_s = v->number({0, 60});
+    if (const auto v = json.find("answer_during")) out.answer_during = v->boolean();
     if (const auto v = json.find("jspsych_from")) out.jspsych_from = v->string();
     return out;
 }
@@ -209,7 +237,7 @@ Design read_design(const std::filesystem::path& file) {
     const JsonCursor version = json.at("version");
     if (version.json() != 1) version.fail("1, the version of the format this program reads");
     json.allow_keys({"format", "version", "name", "seed", "clips", "match", "experiment",
-                     "parameters", "sets"});
+                     "triggers", "dataset", "parameters", "sets"});
     Design design;
     design.file = file;
     design.name = json.at("name").string();
@@ -217,6 +245,18 @@ Design read_design(const std::filesystem::path& file) {
     if (const auto v = json.find("clips")) design.clips = read_clips(*v);
     if (const auto v = json.find("match")) design.match = read_match(*v);
     if (const auto v = json.find("experiment")) design.experiment = read_experiment(*v);
+    if (const auto v = json.find("dataset")) {
+        v->allow_keys({"authors", "license", "copyright"});
+        if (const auto authors = v->find("authors"))
+            for (const JsonCursor& one : authors->items())
+                design.dataset.authors.push_back(one.string());
+        if (const auto text = v->find("license")) design.dataset.license = text->string();
+        if (const auto text = v->find("copyright")) design.dataset.copyright = text->string();
+    }
+    if (const auto v = json.find("triggers")) {
+        v->allow_keys({"pulse_ms"});
+        if (const auto pulse = v->find("pulse_ms")) design.pulse_ms = pulse->number({1, 1000});
+    }
     if (const auto v = json.find("parameters")) design.parameters = read_values(*v);
     std::set<std::string> names;
     for (const JsonCursor& set : json.at("sets").items()) {
@@ -225,6 +265,9 @@ Design read_design(const std::filesystem::path& file) {
             set.at("name").fail("every set's name once",
                                 risorius::in_quotes(design.sets.back().name) + " again");
     }
+    if (design.match.motion)
+        for (ConditionSet& set : design.sets)
+            set.factors.push_back({.name = kSeenStep, .levels = design.match.motion->share});
     if (design.sets.empty()) json.at("sets").fail("at least one set of conditions", "none");
     if (design.experiment) check_experiment(json.at("experiment"), design);
     return design;

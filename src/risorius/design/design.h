@@ -20,6 +20,8 @@ namespace risorius::design {
 struct Factor {
     std::string name;
     std::vector<JsonCursor> levels;
+    bool drawn =
+        false;  ///< whether the levels were drawn at random; then names of clips have four digits of them
 };
 
 /// Values of parameters that apply to conditions with all values of `when`.
@@ -55,20 +57,34 @@ struct ClipOptions {
     bool lossless = false;
     bool landmarks = true;  ///< whether the table of frames has the positions of landmarks
     std::optional<std::string> photodiode;
+    /// Frames from one key frame of the codec to the next; default: only the first frame of clips of up to 10 s
+    std::optional<int> keyframe_interval;
 };
 
-/// Matches mean and standard deviation of luminance (media/luminance.h) by an affine function of linear light, one for all clips
-/// or one per clip. Only conditions are measured; controls are mapped by the same function.
+/// Matches mean and standard deviation of luminance (media/tone.h) by an affine function of linear light. The background is not
+/// changed. Only conditions are measured; controls are mapped as their condition is.
 struct LuminanceMatch {
     /// True: only the oval of the face is measured, not the whole picture
     bool within_face = false;
-    bool per_clip = false;
+    /// One map for all clips; for all clips of a head in a view; or for each clip and its controls
+    enum class OneFor { kAll, kIdentity, kClip } one_for = OneFor::kAll;
     /// Targets, (0, 1); if they are not given, they are computed from the whole set
     std::optional<double> mean, sd;
+    /// Largest fraction of channel values that may be clipped at black and white in a clip
+    double cut_limit = 0.005;
+    bool allow_clipping = false;  ///< whether more is a note instead of an error
+};
+
+/// Makes steps of intensity equal as they are seen: adds the factor "seen_step", and sets a parameter by search.
+struct MotionMatch {
+    std::vector<JsonCursor>
+        share;       ///< levels of the factor: shares of the motion at full intensity, (0, 1]
+    std::string of;  ///< the parameter, an intensity
 };
 
 /// What is made equal in all clips.
 struct Match {
+    std::optional<MotionMatch> motion;
     std::optional<LuminanceMatch> luminance;
     std::optional<double> loudness_lufs;  ///< target loudness of the sound of each clip
 };
@@ -84,8 +100,15 @@ struct ExperimentOptions {
     bool controls = true;           ///< whether controls are also shown
     int repetitions = 1;
     double fixation_s = 0.5;
+    bool answer_during = false;  ///< whether a key pressed while the clip is shown is the answer
     /// Packages of jsPsych: a URL or a folder
     std::string jspsych_from = "https://cdn.jsdelivr.net/npm";
+};
+
+/// What the data set says about itself.
+struct DatasetOptions {
+    std::vector<std::string> authors;
+    std::string license = "n/a", copyright = "n/a";
 };
 
 /// The content of a design file.
@@ -96,6 +119,8 @@ struct Design {
     ClipOptions clips;
     Match match;
     std::optional<ExperimentOptions> experiment;
+    DatasetOptions dataset;
+    double pulse_ms = 10;  ///< minimum time that a trigger code stays on the line
     std::vector<Given> parameters;
     std::vector<ConditionSet> sets;
 };

@@ -3,24 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <sstream>
+#include <stdexcept>
 
+#include "risorius/media/detail/srgb_light.h"
 #include "risorius/media/luminance.h"
 
 namespace risorius::media {
 
 namespace {
 
-// sRGB, IEC 61966-2-1
-double linear_of(int byte) {
-    const double v = byte / 255.0;
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
-std::uint8_t byte_of(double linear) {
-    const double v =
-        linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(v, 0.0, 1.0)));
-}
+double linear_of(int byte) { return detail::light_of_srgb(byte); }
+std::uint8_t byte_of(double light) { return detail::srgb_of_light(light); }
 
 }  // namespace
 
@@ -28,6 +23,7 @@ ToneCurve::ToneCurve(const Tone& tone) {
     for (int i = 0; i < 256; ++i) {
         const double light = tone.gain * linear_of(i) + tone.offset;
         const auto at = static_cast<std::size_t>(i);
+        light_[at] = std::clamp(light, 0.0, 1.0);
         byte_[at] = byte_of(std::clamp(light, 0.0, 1.0));
         // Values that still round to the last byte do not count as clipped.
         is_cut_[at] = light < linear_of(0) - 1e-12 || light > linear_of(255) + 1e-12;
@@ -38,6 +34,38 @@ void ToneCurve::apply(Image& image) const {
     image.deep.clear();
     for (std::size_t i = 0; i < image.rgba.size(); ++i)
         if (i % 4 != 3) image.rgba[i] = byte_[image.rgba[i]];
+}
+
+void ToneCurve::apply_over(const std::array<std::uint8_t, 3>& background, Image& image) const {
+    image.deep.clear();
+    const std::array<double, 3> behind{linear_of(background[0]), linear_of(background[1]),
+                                       linear_of(background[2])};
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        const std::uint8_t opacity = image.rgba[i + 3];
+        const double share = opacity / 255.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::uint8_t& byte = image.rgba[i + k];
+            if (opacity == 255)
+                byte = byte_[byte];
+            else if (opacity == 0)
+                byte = background[k];
+            else
+                byte = byte_of(share * light_[byte] + (1 - share) * behind[k]);
+        }
+        image.rgba[i + 3] = 255;
+    }
+}
+
+double ToneCurve::cut_off(const Image& image, const std::vector<float>& weights) const {
+    double cut = 0, all = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        const auto weight = static_cast<double>(weights[i]);
+        if (!(weight > 0)) continue;
+        all += 3 * weight;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (is_cut_[image.rgba[4 * i + k]]) cut += weight;
+    }
+    return all > 0 ? cut / all : 0.0;
 }
 
 double ToneCurve::cut_off(const Image& image, const std::vector<std::uint16_t>& mask) const {
@@ -62,6 +90,17 @@ void LuminanceSums::add(const Image& image, const std::vector<std::uint16_t>& ma
     }
 }
 
+void LuminanceSums::add(const Image& image, const std::vector<float>& weights) {
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        const auto w = static_cast<double>(weights[i]);
+        if (!(w > 0)) continue;
+        const double y = relative_luminance(&image.rgba[4 * i]);
+        weight += w;
+        sum += w * y;
+        squares += w * y * y;
+    }
+}
+
 void LuminanceSums::add(const LuminanceSums& others) {
     weight += others.weight;
     sum += others.sum;
@@ -77,6 +116,116 @@ Tone tone_between(const LuminanceSums& from, double mean, double sd) {
     if (from.sd() > 0) tone.gain = sd / from.sd();
     tone.offset = mean - tone.gain * from.mean();
     return tone;
+}
+
+namespace {
+
+constexpr int kCellShift = 3;
+constexpr double kFitted = 1e-4;
+constexpr int kMaxFitSteps = 60;
+constexpr double kLeastUncut = 0.2;
+
+}  // namespace
+
+void ColourSums::add(const Image& image, const std::vector<float>& weights) {
+    static const std::array<double, 256> kLight = [] {
+        std::array<double, 256> out{};
+        for (int i = 0; i < 256; ++i) out[static_cast<std::size_t>(i)] = linear_of(i);
+        return out;
+    }();
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        const auto w = static_cast<double>(weights[i]);
+        if (!(w > 0)) continue;
+        const std::uint8_t* pixel = &image.rgba[4 * i];
+        Cell& cell = cells_[(pixel[0] >> kCellShift) << 10 | (pixel[1] >> kCellShift) << 5 |
+                            pixel[2] >> kCellShift];
+        cell.weight += w;
+        double y = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            cell.light[k] += w * kLight[pixel[k]];
+            y += detail::kLuma[k] * kLight[pixel[k]];
+        }
+        cell.squares += w * y * y;
+    }
+}
+
+void ColourSums::add(const ColourSums& others) {
+    for (const auto& [at, other] : others.cells_) {
+        Cell& cell = cells_[at];
+        cell.weight += other.weight;
+        for (std::size_t k = 0; k < 3; ++k) cell.light[k] += other.light[k];
+        cell.squares += other.squares;
+    }
+}
+
+ColourSums::Spread ColourSums::after(const Tone& tone) const {
+    double weight = 0, sum = 0, squares = 0, cut = 0;
+    for (const auto& [at, cell] : cells_) {
+        double y = 0, y_before = 0;
+        int clipped = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double before = cell.light[k] / cell.weight,
+                         after = tone.gain * before + tone.offset;
+            y_before += detail::kLuma[k] * before;
+            y += detail::kLuma[k] * std::clamp(after, 0.0, 1.0);
+            clipped += after < 0 || after > 1;
+        }
+        // Within the cell, values that are not clipped keep their scatter.
+        const double scatter = std::max(0.0, cell.squares / cell.weight - y_before * y_before) *
+                               tone.gain * tone.gain * (3 - clipped) / 3;
+        weight += cell.weight;
+        sum += cell.weight * y;
+        squares += cell.weight * (y * y + scatter);
+        cut += cell.weight * clipped / 3.0;
+    }
+    if (!(weight > 0)) return {};
+    const double mean = sum / weight;
+    return {.mean = mean,
+            .sd = std::sqrt(std::max(0.0, squares / weight - mean * mean)),
+            .cut = cut / weight};
+}
+
+std::string ColourSums::text() const {
+    std::string out;
+    for (const auto& [at, cell] : cells_) {
+        char line[128];
+        std::snprintf(line, sizeof line, "%s%d %.7g %.7g %.7g %.7g %.7g", out.empty() ? "" : ";",
+                      at, cell.weight, cell.light[0], cell.light[1], cell.light[2], cell.squares);
+        out += line;
+    }
+    return out;
+}
+
+ColourSums ColourSums::of_text(const std::string& text) {
+    ColourSums out;
+    std::istringstream cells(text);
+    for (std::string one; std::getline(cells, one, ';');) {
+        std::istringstream numbers(one);
+        int at = 0;
+        Cell cell;
+        numbers >> at >> cell.weight >> cell.light[0] >> cell.light[1] >> cell.light[2] >>
+            cell.squares;
+        if (!numbers || !(cell.weight > 0)) throw std::invalid_argument("no colours: " + one);
+        out.cells_[at] = cell;
+    }
+    return out;
+}
+
+FittedTone fitted_tone(const ColourSums& colours, double mean, double sd) {
+    const ColourSums::Spread before = colours.after({});
+    Tone tone;
+    if (before.sd > 0) tone.gain = sd / before.sd;
+    tone.offset = mean - tone.gain * before.mean;
+    ColourSums::Spread now = colours.after(tone);
+    for (int step = 0; step < kMaxFitSteps; ++step) {
+        if (std::abs(now.mean - mean) < kFitted && std::abs(now.sd - sd) < kFitted) break;
+        const double gain = now.sd > 0 ? tone.gain * sd / now.sd : tone.gain;
+        tone.offset += (mean - now.mean) / std::max(1 - now.cut, kLeastUncut) -
+                       (gain - tone.gain) * before.mean;
+        tone.gain = gain;
+        now = colours.after(tone);
+    }
+    return {tone, now};
 }
 
 }  // namespace risorius::media

@@ -37,6 +37,8 @@ struct VideoOptions {
     std::optional<std::string> pixels = {};     ///< "yuv420p", or "yuv444p": colour at full size
     std::optional<int> keyframe_interval = {};  ///< in frames; default: a quarter of a second
     bool lossless = false;
+    /// All frames are the same picture. In H.264 every frame then decodes to the same bytes as the first one.
+    bool still = false;
     std::optional<int> bits = {};  ///< of PNG frames, 8 or 16
     bool alpha = false;            ///< frames may be transparent even if the first one is not
     /// The sound of the video. It is cut, or extended with silence, to the length of the video.

@@ -96,4 +96,40 @@ FaceOval::Span FaceOval::pixels_of_row(int y, int width_px) const {
     return out;
 }
 
+std::vector<float> FaceOval::soft_pixels(int width_px, int height_px, double rim) const {
+    std::vector<float> out(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px),
+                           0);
+    if (border_.empty()) return out;
+    double left = 1e9, right = -1e9;
+    for (const Vec2& point : border_) {
+        left = std::min(left, point.x());
+        right = std::max(right, point.x());
+    }
+    const double soft = rim * (right - left);
+    const auto away = [&](const Vec2& point) {
+        double squared = 1e18;
+        for (std::size_t i = 0; i < border_.size(); ++i) {
+            const Vec2 &a = border_[i], side = border_[(i + 1) % border_.size()] - a;
+            const double length = side.squaredNorm(),
+                         t = length > 0 ? std::clamp((point - a).dot(side) / length, 0.0, 1.0) : 0;
+            squared = std::min(squared, (point - a - t * side).squaredNorm());
+        }
+        return std::sqrt(squared);
+    };
+    for (int y = 0; y < height_px; ++y) {
+        const Span inside = pixels_of_row(y, width_px);
+        for (int x = 0; x < width_px; ++x) {
+            double weight = x >= inside.first && x < inside.end ? 1 : 0;
+            if (weight == 0 && x > left - soft - 1 && x < right + soft + 1) {
+                const double distance = away({x + 0.5, y + 0.5});
+                if (distance < soft)
+                    weight = 0.5 * (1 + std::cos(3.14159265358979 * distance / soft));
+            }
+            out[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
+                static_cast<std::size_t>(x)] = static_cast<float>(weight);
+        }
+    }
+    return out;
+}
+
 }  // namespace risorius::scene

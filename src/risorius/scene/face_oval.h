@@ -19,6 +19,9 @@ class FaceOval {
     explicit FaceOval(std::vector<Vec2> points);
 
     bool contains(const Vec2& point) const;
+    /// Weights of all pixels of a picture, row by row: 1 inside, and outside a raised cosine that falls to 0 over `rim` of the oval's
+    /// width.
+    std::vector<float> soft_pixels(int width_px, int height_px, double rim) const;
     /// The pixels of a row whose centres lie in the oval: from `first` up to, but not including, `end`.
     struct Span {
         int first = 0, end = 0;

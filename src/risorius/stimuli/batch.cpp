@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "risorius/core/error.h"
@@ -17,6 +18,7 @@
 #include "risorius/report/stopwatch.h"
 #include "risorius/stimuli/detail/experiment_files.h"
 #include "risorius/stimuli/detail/luminance_match.h"
+#include "risorius/stimuli/detail/motion_match.h"
 #include "risorius/stimuli/detail/own_files.h"
 #include "risorius/stimuli/detail/stimulus_set.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
@@ -75,7 +77,7 @@ void note_twins(BatchPlan& plan) {
     int twins = 0;
     for (const ClipPlan& clip : plan.clips) {
         if (clip.is_control()) continue;
-        const auto [like, is_new] = first.emplace(clip.render_sha256, &clip);
+        const auto [like, is_new] = first.emplace(clip.shown_sha256(), &clip);
         if (is_new) continue;
         if (++twins == 1)
             example = clip.condition.clip + " is " + like->second->condition.clip + " again";
@@ -112,12 +114,19 @@ BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped)
     plan.name = design.name;
     plan.match = design.match;
     plan.experiment = design.experiment;
+    plan.pulse_ms = design.pulse_ms;
+    plan.dataset = design.dataset;
     for (const design::ConditionSet& set : design.sets)
         if (!set.fraction.empty() || set.draw)
             plan.balances.emplace_back(set.name, design::balance_of(set, design.seed));
     plan.inputs = std::make_shared<animate::RenderInputs>(stopped);
     SoundPlans sounds;
-    for (const design::Condition& condition : design::conditions_of(design))
+    MotionMatch motion(design.clips.quality, *plan.inputs, {.progress = {}, .stopped = stopped});
+    const auto find = [&](double share, const std::function<Json(double)>& script_at,
+                          const fs::path& folder, const std::string& place) {
+        return motion.intensity_for(share, script_at, folder, place);
+    };
+    for (const design::Condition& condition : design::conditions_of(design, find))
         plan.clips.push_back(plan_clip(condition, design, *plan.inputs, sounds));
     share_renders(plan.clips);
     check_experiment(plan);
@@ -136,6 +145,7 @@ Json BatchReport::json() const {
             {"elsewhere", elsewhere},
             {"unmeasured", unmeasured},
             {"failed", list},
+            {"changed", changed},
             {"complete", complete},
             {"seconds", seconds}};
 }
@@ -190,6 +200,7 @@ class BatchRun {
                             .clips_at_once = at_once,
                             .inputs = inputs_,
                             .session = session,
+                            .settled = settled_,
                             .monitor = frames});
             } catch (const Error& error) {
                 why = error.what();
@@ -213,16 +224,34 @@ class BatchRun {
     const ProgressMonitor& monitor_;
     animate::RenderInputs& inputs_;
     BatchReport& report_;
+    SettledMotions settled_;
     std::mutex reporting_;
     double left_s_ = 0;  ///< estimated time of the remaining clips
 };
 
+/// Throws Error when a clip would replace a file that is not as `batch` has written it.
+void check_not_changed(const std::vector<const ClipPlan*>& clips, const fs::path& folder) {
+    if (!fs::exists(folder)) return;
+    const std::set<fs::path> own = own_files(folder);
+    for (const ClipPlan* clip : clips) {
+        const ClipFiles files = clip_files(*clip);
+        std::vector<fs::path> all = files.listed();
+        all.push_back(files.sidecar);
+        for (const fs::path& file : all)
+            if (fs::exists(folder / file) && own.count(file) == 0)
+                throw Error((folder / file).string(),
+                            "no file, or one that is as `batch` has written it, unless " +
+                                option_name("replace") + " is given",
+                            "another or a changed one");
+    }
+}
+
 /// Writes the files of the set. The last two parts may come to this at the same time; then one waits for the other.
-void write_set_after_others(const BatchPlan& plan, const BatchOptions& options,
-                            const ProgressMonitor& monitor) {
+std::vector<std::string> write_set_after_others(const BatchPlan& plan, const BatchOptions& options,
+                                                const ProgressMonitor& monitor) {
     for (;;) {
         try {
-            return write_set(plan, options.design, options.out, monitor);
+            return write_set(plan, options, monitor);
         } catch (const OutputInUse&) {
             monitor.throw_if_stopped();
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -256,7 +285,9 @@ BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monit
             report.seconds = time.seconds();
             return report;
         }
+        const auto before = static_cast<std::ptrdiff_t>(plan.notes.size());
         match_luminance(options.out, plan);
+        report.notes.assign(plan.notes.begin() + before, plan.notes.end());
     }
 
     // Find the clips that exist already.
@@ -272,12 +303,13 @@ BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monit
             wanted.push_back(&clip);
         }
     }
+    if (!options.replace) check_not_changed(wanted, options.out);
     report.made = run.work(wanted, "made", make_clip);
 
     // Write the files of the whole set.
     if (report.failed.empty() && report.elsewhere == 0) {
         monitor.report(1, "the files of the set");
-        write_set_after_others(plan, options, monitor);
+        report.changed = write_set_after_others(plan, options, monitor);
         report.complete = true;
     }
     report.seconds = time.seconds();

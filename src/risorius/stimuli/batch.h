@@ -20,7 +20,8 @@ namespace risorius::stimuli {
 /// Options of make_batch().
 struct BatchOptions {
     std::filesystem::path design, out;
-    int workers = 2;  ///< number of clips that are made at the same time
+    int workers = 2;       ///< number of clips that are made at the same time
+    bool replace = false;  ///< whether files that were changed since they were made are replaced
     /// When several machines make the set: the number of the part of the clips that this one makes, from 1, and the number of
     /// parts
     int part = 1, parts = 1;
@@ -35,6 +36,8 @@ struct BatchPlan {
     std::string name;
     design::Match match;
     std::optional<design::ExperimentOptions> experiment;
+    double pulse_ms = 10;  ///< see design::Design
+    design::DatasetOptions dataset;
     /// For each set of conditions that uses only a part of its crossing: how balanced that part is (design/detail/crossing.h). The key
     /// is its name.
     std::vector<std::pair<std::string, design::Balance>> balances;
@@ -59,7 +62,10 @@ struct BatchReport {
     /// Conditions of other parts that must be rendered before luminance can be matched
     int unmeasured = 0;
     std::vector<std::pair<std::string, std::string>> failed;  ///< name of the clip and reason
-    bool complete = false;  ///< all clips and the files of the set exist
+    bool complete = false;           ///< all clips and the files of the set exist
+    std::vector<std::string> notes;  ///< that came up while the clips were made
+    /// Files of the set that somebody has changed. They stay, and the new ones are beside them, as NAME.new
+    std::vector<std::string> changed;
     double seconds = 0;
     Json json() const;
 };

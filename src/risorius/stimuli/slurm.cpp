@@ -232,7 +232,7 @@ BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& s
     if (report.failed.empty()) {
         for (const auto& entry : fs::directory_iterator(batch.out / "code"))
             if (entry.path().filename().string().rfind("slurm", 0) == 0) fs::remove(entry.path());
-        write_set(plan, batch.design, batch.out, monitor);
+        report.changed = write_set(plan, batch, monitor);
         report.complete = true;
     }
     report.seconds = time.seconds();

@@ -2,6 +2,7 @@
 #include "risorius/design/detail/controls.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <random>
@@ -15,7 +16,8 @@ namespace risorius::design {
 const std::vector<std::string>& control_names() {
     static const std::vector<std::string> kNames{
         "reversed",   "scrambled", "apex",    "upside_down", "phase_scrambled", "eyes_only",
-        "mouth_only", "flipped",   "neutral", "knock_out",   "palsy",           "late_side"};
+        "mouth_only", "flipped",   "neutral", "knock_out",   "palsy",           "late_side",
+        "low_pass",   "high_pass", "oval",    "noise"};
     return kNames;
 }
 
@@ -28,6 +30,10 @@ bool Control::shows_otherwise() const {
         case ControlKind::kPhaseScrambled:
         case ControlKind::kEyesOnly:
         case ControlKind::kMouthOnly:
+        case ControlKind::kLowPass:
+        case ControlKind::kHighPass:
+        case ControlKind::kOval:
+        case ControlKind::kNoise:
             return true;
         case ControlKind::kNone:
         case ControlKind::kFlipped:
@@ -40,10 +46,20 @@ bool Control::shows_otherwise() const {
     return false;
 }
 
+bool Control::changes_the_oval() const {
+    return kind == ControlKind::kPhaseScrambled || kind == ControlKind::kLowPass ||
+           kind == ControlKind::kHighPass || kind == ControlKind::kOval ||
+           kind == ControlKind::kNoise;
+}
+
 std::string Control::name() const {
     if (kind == ControlKind::kNone) return {};
     const std::string plain = control_names()[static_cast<std::size_t>(kind) - 1];
     if (kind == ControlKind::kKnockOut) return clip_word("without_" + muscle);
+    if (kind == ControlKind::kLowPass || kind == ControlKind::kHighPass)
+        return clip_word(plain + "_" + format_number(cycles_per_face));
+    if (kind == ControlKind::kNoise)
+        return clip_word(plain + (snr_db < 0 ? "_m" : "_") + format_number(std::abs(snr_db)));
     if (kind == ControlKind::kPalsy || kind == ControlKind::kLateSide)
         return clip_word(plain + "_" + side);
     return clip_word(plain);
@@ -56,7 +72,12 @@ Control read_control(const JsonCursor& json) {
         static_cast<ControlKind>(index_of_name(name.place(), name.string(), control_names()) + 1);
     const bool one_side =
         control.kind == ControlKind::kPalsy || control.kind == ControlKind::kLateSide;
+    const bool passes =
+        control.kind == ControlKind::kLowPass || control.kind == ControlKind::kHighPass;
     if (!json.is_object()) {
+        if (passes) json.fail("an object with \"control\" and \"cycles_per_face\"");
+        if (control.kind == ControlKind::kNoise)
+            json.fail("an object with \"control\" and \"snr_db\"");
         if (control.kind == ControlKind::kKnockOut)
             json.fail("an object with \"control\" and \"muscle\"");
         if (one_side) json.fail("an object with \"control\" and \"side\"");
@@ -67,7 +88,16 @@ Control read_control(const JsonCursor& json) {
     if (one_side) keys.push_back("side");
     if (control.kind == ControlKind::kPalsy) keys.push_back("weakness");
     if (control.kind == ControlKind::kLateSide) keys.push_back("late_s");
+    if (passes) keys.insert(keys.end(), {"cycles_per_face", "order", "contrast"});
+    if (control.kind == ControlKind::kNoise) keys.push_back("snr_db");
     json.allow_keys(keys);
+    if (passes) {
+        control.cycles_per_face = json.at("cycles_per_face").number({0.1, 200});
+        if (const auto v = json.find("order")) control.order = v->integer(1, 16);
+        if (const auto v = json.find("contrast"))
+            control.keep_contrast = v->one_of({"keep", "rms"}) == "rms";
+    }
+    if (control.kind == ControlKind::kNoise) control.snr_db = json.at("snr_db").number({-40, 40});
     if (control.kind == ControlKind::kKnockOut) control.muscle = json.at("muscle").string();
     if (one_side) control.side = json.at("side").one_of({"left", "right"});
     if (const auto v = json.find("weakness")) control.weakness = v->number({0, 1});

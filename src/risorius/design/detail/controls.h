@@ -26,7 +26,11 @@ enum class ControlKind {
     kNeutral,         ///< the face at rest, for the same duration
     kKnockOut,        ///< the script without one muscle
     kPalsy,           ///< one half of the face is weak
-    kLateSide         ///< one half of the face moves later than the other
+    kLateSide,        ///< one half of the face moves later than the other
+    kLowPass,         ///< only low spatial frequencies within the oval of the face
+    kHighPass,        ///< only high ones
+    kOval,            ///< only the oval of the face, with a soft rim
+    kNoise            ///< noise of luminance over the oval of the face
 };
 
 /// The names of controls in design files, in the order of the enumeration from kReversed on.
@@ -39,10 +43,18 @@ struct Control {
     std::string side;     ///< kPalsy, kLateSide: "left" or "right"
     double weakness = 1;  ///< kPalsy: missing fraction of the strength, [0, 1]
     double late_s = 0.1;  ///< kLateSide: delay
+    /// kLowPass, kHighPass: where the gain is -3 dB, in cycles per width of the face between zy_l and zy_r; (0, 200]
+    double cycles_per_face = 8;
+    int order = 4;  ///< kLowPass, kHighPass: of the Butterworth filter, [1, 16]
+    bool keep_contrast =
+        false;  ///< kLowPass, kHighPass: whether the standard deviation of luminance is restored
+    double snr_db = 0;  ///< kNoise: power of the picture / power of the noise, [-40, 40]
     std::map<std::string, Json> when;  ///< only conditions with these values get the control
 
     /// Returns whether the control changes only how the pictures of the condition are shown, and not the face.
     bool shows_otherwise() const;
+    /// Returns whether the control changes the picture within the oval of the face, and so needs its opacity.
+    bool changes_the_oval() const;
     std::string name() const;  ///< the name in file names: "reversed", "withoutZygomaticusMajorL"
 };
 

@@ -2,6 +2,7 @@
 #include "risorius/media/detail/picture_coder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 
 #include "risorius/core/error.h"
@@ -14,7 +15,9 @@ namespace {
 constexpr int kThreads = 4;
 constexpr int kSlices = 4;
 constexpr int kUsualH264Crf = 18;  // hard to distinguish from the original
-constexpr int kUsualVp9Crf = 24;   // about the same quality
+constexpr int kMaxH264Crf = 51, kLaterCrf = 24;
+constexpr double kUsualIpRatio = 1.4;  // of quantizers; 6 steps of crf are a factor of 2
+constexpr int kUsualVp9Crf = 24;       // about the same quality
 // Motion search to fractions of a pixel: half the steps of the preset "faster".
 constexpr const char* kUsualRefinement = ":subme=2";
 
@@ -148,11 +151,18 @@ void PictureCoder::open_h264(const VideoOptions& options) {
     codec_->flags |= AV_CODEC_FLAG_CLOSED_GOP;
     set("preset", options.preset.value_or("faster"));
     const std::string refinement = options.preset || options.lossless ? "" : kUsualRefinement;
+    const int crf = options.crf.value_or(kUsualH264Crf);
+    const int later = options.still ? std::min(kLaterCrf, kMaxH264Crf - crf) : 0;
     if (options.lossless)
         set("qp", "0");
     else
-        set("crf", std::to_string(options.crf.value_or(kUsualH264Crf)));
-    set("x264-params", "scenecut=0" + refinement + instructions());
+        // The quantizers of a still are fixed: later frames are so much coarser than the first that they correct nothing of it.
+        set(options.still ? "qp" : "crf", std::to_string(crf + later));
+    const std::string still =
+        options.still && !options.lossless
+            ? ":weightp=0:ipratio=" + std::to_string(kUsualIpRatio * std::pow(2, later / 6.0))
+            : "";
+    set("x264-params", "scenecut=0" + refinement + still + instructions());
 }
 
 void PictureCoder::open_vp9(const VideoOptions& options, Coding coding, bool alpha) {

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "risorius/animate/frame_rows.h"
+#include "risorius/animate/landmark_run.h"
 #include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
 #include "risorius/core/input_log.h"
@@ -18,8 +20,12 @@
 #include "risorius/media/sha256.h"
 #include "risorius/media/sync_marks.h"
 #include "risorius/media/video_reader.h"
+#include "risorius/media/video_writer.h"
 #include "risorius/media/wav_file.h"
 #include "risorius/stimuli/detail/clip_pictures.h"
+#include "risorius/stimuli/detail/expression_script.h"
+#include "risorius/stimuli/detail/frame_columns.h"
+#include "risorius/stimuli/detail/seen_motion.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
 #include "risorius/track/timeline.h"
 
@@ -33,6 +39,7 @@ namespace {
 // Estimates for two cores: seconds per clip, per frame and per pixel, and bytes per pixel
 constexpr double kClip_s = 0.1, kFrame_s = 0.04, kPixel_s = 1e-7, kByte_px = 0.03,
                  kLosslessByte_px = 1.2;
+constexpr int kOneKeyframe_s = 10;        // shorter clips have only one key frame
 constexpr double kMaxHeld_bytes = 0.6e9;  // limit for frames that are kept in memory
 
 /// The positions in a script that name a file.
@@ -64,13 +71,6 @@ std::string stem(const ClipPlan& plan) { return "stimuli/stim-" + plan.condition
 /// The suffix of BIDS for a video without and with sound.
 std::string suffix(const ClipPlan& plan) { return plan.sound ? "_audiovideo" : "_video"; }
 
-/// Whether the table has the positions of landmarks, because the design requests them or the clip is made with them.
-bool needs_landmarks(const ClipPlan& plan) {
-    const design::ControlKind kind = plan.condition.control.kind;
-    return plan.clips.landmarks || shows_part(kind) || kind == design::ControlKind::kApex ||
-           (plan.luminance && plan.luminance->within_face);
-}
-
 /// Whether the script moves the head in any frame.
 bool moves_the_head(const track::ScriptDescription& script, const track::ChannelTable& channels,
                     const ClipPlan& plan) {
@@ -84,35 +84,38 @@ bool moves_the_head(const track::ScriptDescription& script, const track::Channel
     return false;
 }
 
+/// Frames from one key frame to the next; none for endings in which every frame is one.
+std::optional<int> keyframe_interval(const ClipPlan& plan) {
+    if (plan.clips.ending == "mkv") return {};
+    // A key frame is coded anew, which shows as a pulse in a face that does not move.
+    return plan.clips.keyframe_interval.value_or(std::min(plan.frames, kOneKeyframe_s * plan.fps));
+}
+
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-/// Passes on the pictures of an unmatched render and returns their luminance before and after matching.
-Json show_matched(const ClipPlan& plan, const UnmatchedRender& render,
-                  const animate::FrameRows& rows, const ProgressMonitor& monitor,
+/// Passes on the pictures of an unmatched render.
+void show_matched(const UnmatchedRender& render, const ProgressMonitor& monitor,
                   ClipPictures& pictures) {
-    const media::Tone tone = plan.tone.value_or(media::Tone{});
-    const media::ToneCurve curve(tone);
     const ReadingFormerOutput own;
     media::VideoReader reader(render.video);
-    media::LuminanceSums after;
-    double cut_off = 0;
     for (int frame = 0; frame < reader.frames(); ++frame) {
         monitor.report(static_cast<double>(frame) / reader.frames(), animate::kRendering);
-        Image image = reader.frame(frame);
-        const std::vector<std::uint16_t> part = measured_part(plan, rows, frame);
-        cut_off += curve.cut_off(image, part) / reader.frames();
-        Image matched = image;
-        curve.apply(matched);
-        after.add(matched, part);
-        pictures.add(std::move(image));
+        pictures.add(reader.frame(frame));
     }
+}
+
+/// What the sidecar says about a matched clip.
+Json matched_luminance(const ClipPlan& plan, const UnmatchedRender& render,
+                       const ClipPictures& pictures) {
+    const media::Tone tone = plan.tone.value_or(media::Tone{});
     return {{"film_sha256", plan.render_sha256},
             {"within", plan.luminance->within_face ? "face" : "picture"},
             {"gain", tone.gain},
             {"offset", tone.offset},
             {"before", json_of(render.luminance)},
-            {"after", json_of(after)},
-            {"cut_off", cut_off}};
+            {"colours", render.colours},
+            {"after", json_of(pictures.luminance())},
+            {"cut_off", pictures.cut_off()}};
 }
 
 }  // namespace
@@ -143,10 +146,26 @@ double ClipPlan::megabytes() const {
            width_px * height_px;
 }
 
+std::string ClipPlan::shown_sha256() const {
+    std::string shown = render_sha256;
+    if (sound)
+        shown += sound->sha256 + " " + std::to_string(sound->offset_samples) + " " +
+                 format_number(sound->gain_db);
+    return shown;
+}
+
+double SettledMotions::at(const std::string& key, const std::function<double()>& measure) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (const auto found = known_.find(key); found != known_.end()) return found->second;
+    }
+    const double value = measure();
+    const std::lock_guard lock(mutex_);
+    return known_.emplace(key, value).first->second;
+}
+
 void ClipPlan::match(const media::Tone& matched) {
     tone = matched;
-    const media::ToneCurve curve(matched);
-    for (std::uint8_t& byte : background) byte = curve.of(byte);
     content_sha256 = animate::sha256_of_text(json_text(
         Json{{"content", content_sha256}, {"gain", tone->gain}, {"offset", tone->offset}}));
 }
@@ -172,7 +191,7 @@ std::string sha256_of_rig(const animate::RigInput& rig) {
 void check_control(const ClipPlan& plan, const track::ScriptDescription& script,
                    const track::ChannelTable& channels, const std::string& place) {
     const design::ControlKind kind = plan.condition.control.kind;
-    if ((shows_other_order(kind) || shows_part(kind)) &&
+    if (needs_all_frames(plan) &&
         4.0 * plan.frames * plan.width_px * plan.height_px > kMaxHeld_bytes)
         throw Error(place,
                     "fewer or smaller frames for the control " + plan.condition.control.name() +
@@ -192,7 +211,7 @@ std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256
                   {"script", condition.script},
                   {"rig", rig_sha256},
                   {"quality", plan.clips.quality},
-                  {"landmarks", needs_landmarks(plan)},
+                  {"layers", plan.luminance.has_value()},
                   {"flipped", condition.control.kind == design::ControlKind::kFlipped},
                   {"within", plan.luminance && plan.luminance->within_face ? "face" : "picture"}};
     for (const Json::json_pointer& key : file_keys(condition.script)) {
@@ -204,6 +223,11 @@ std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256
     }
     return animate::sha256_of_text(json_text(rendered));
 }
+
+/// Changes when clips are made or measured in another way, so that older ones are made anew.
+constexpr int kWayOfMaking = 2;
+
+Json or_none(const std::optional<int>& value) { return value ? Json(*value) : Json(); }
 
 /// The checksum of everything that the clip depends on.
 std::string content_sha256_of(const ClipPlan& plan) {
@@ -220,6 +244,8 @@ std::string content_sha256_of(const ClipPlan& plan) {
                  {"crf", clips.crf ? Json(*clips.crf) : Json()},
                  {"lossless", clips.lossless},
                  {"landmarks", clips.landmarks},
+                 {"keyframes", or_none(keyframe_interval(plan))},
+                 {"made_by", kWayOfMaking},
                  {"photodiode", clips.photodiode ? Json(*clips.photodiode) : Json()}};
     if (plan.sound)
         content["sound"] = {{"file", plan.sound->sha256},
@@ -249,11 +275,18 @@ ClipPlan plan_clip(const design::Condition& condition, const design::Design& des
     plan.fps = header.fps;
     plan.width_px = header.view.width_px;
     plan.height_px = header.view.height_px;
+    plan.transparent = header.view.transparent;
     for (std::size_t k = 0; k < 3; ++k)
         plan.background[k] =
             static_cast<std::uint8_t>(std::lround(255 * header.view.background_rgb[k]));
     check_control(plan, script, channels, json.place());
     if (clips.photodiode) media::corner_named(*clips.photodiode, "clips/photodiode");
+    media::check_target("clips." + clips.ending, {.width_px = plan.width_px,
+                                                  .height_px = plan.height_px,
+                                                  .fps = plan.fps,
+                                                  .crf = clips.crf,
+                                                  .keyframe_interval = clips.keyframe_interval,
+                                                  .lossless = clips.lossless});
     if (condition.audio)
         plan.sound = sounds.at(condition, static_cast<double>(plan.frames) / plan.fps,
                                design.match.loudness_lufs, json.place());
@@ -266,7 +299,7 @@ ClipPlan plan_clip(const design::Condition& condition, const design::Design& des
 }
 
 std::vector<fs::path> ClipFiles::listed() const {
-    std::vector<fs::path> files{script, strip, video, events};
+    std::vector<fs::path> files{script, strip, video, events, columns};
     if (!sound.empty()) files.push_back(sound);
     return files;
 }
@@ -276,6 +309,7 @@ ClipFiles clip_files(const ClipPlan& plan) {
             fs::path("overview") / (plan.condition.clip + ".png"),
             stem(plan) + suffix(plan) + "." + plan.clips.ending,
             stem(plan) + "_annot-frames_events.tsv",
+            stem(plan) + "_annot-frames_events.json",
             plan.sound ? fs::path(stem(plan) + "_audio.wav") : fs::path(),
             stem(plan) + suffix(plan) + ".json"};
 }
@@ -310,7 +344,7 @@ animate::RenderJob render_job_of(const ClipPlan& plan, const fs::path& out,
     request.out = out;
     request.video = coding;
     request.quality = plan.clips.quality;
-    request.landmarks = needs_landmarks(plan);
+    request.landmarks = true;  // what is seen to move is measured on them
     request.threads = worker.threads;
     request.renders_at_once = worker.clips_at_once;
     request.flipped_motion = plan.condition.control.kind == design::ControlKind::kFlipped;
@@ -340,9 +374,34 @@ UnmatchedRender unmatched_render_for(const ClipPlan& plan, const ClipWorker& wor
 struct ShownClip {
     animate::FrameRows rows;
     std::vector<int> order;  ///< for each frame of the clip: the frame of the script
-    animate::Moments moments;
+    SeenMotion motion;
+    std::optional<double> commanded_onset_s, commanded_apex_s;
     Json run, luminance;  ///< luminance: null if it is not matched
 };
+
+/// When the strongest expression of a script is told to begin and to be complete.
+void find_commanded(const track::ScriptDescription& script, ShownClip& shown) {
+    const track::ExpressionEvent* strongest = nullptr;
+    for (const track::ExpressionEvent& event : script.expressions) {
+        if (!strongest || event.intensity > strongest->intensity) strongest = &event;
+        shown.commanded_onset_s =
+            std::min(shown.commanded_onset_s.value_or(event.start_s), event.start_s);
+    }
+    if (strongest) shown.commanded_apex_s = strongest->start_s + strongest->onset_s;
+}
+
+/// SeenMotion::full_mm of a clip.
+std::optional<double> full_motion_mm(const ClipPlan& plan, const ClipWorker& worker) {
+    const std::optional<Json> script = expression_at_full_intensity(plan.condition.script);
+    if (!script) return {};
+    ClipPlan full = plan;
+    full.condition.script = *script;
+    const std::string key = json_text(*script) + plan.condition.folder.string();
+    return worker.settled.at(key, [&] {
+        return largest_way_mm(animate::settled_landmarks(
+            render_job_of(full, worker.folder / "none.mkv", {}, worker), worker.session));
+    });
+}
 
 /// Renders the clip, or takes its pictures from an unmatched render, and applies the control.
 ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
@@ -352,7 +411,8 @@ ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
     if (unmatched) {
         shown.run = unmatched->run;
         shown.rows = animate::frame_rows(unmatched->table);
-        shown.luminance = show_matched(plan, *unmatched, shown.rows, worker.monitor, pictures);
+        pictures.know(shown.rows);
+        show_matched(*unmatched, worker.monitor, pictures);
     } else {
         const animate::RenderResult result = animate::run_render_job(
             job, worker.session, [&](Image image) { pictures.add(std::move(image)); },
@@ -360,19 +420,36 @@ ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
         shown.run = portable_record(result.record);
         shown.rows = animate::frame_rows(result.table);
     }
-    shown.moments = animate::moments_of(animate::max_landmark_displacements(shown.rows));
-    shown.order = design::frame_order(plan.condition.control, job.frames, shown.moments.apex,
-                                      plan.condition.seed);
-    pictures.finish(shown.rows, shown.order);
+    std::optional<animate::LandmarkFrames> twin;
+    if (const auto without = animate::job_without_expression(job))
+        twin = animate::play_landmarks(*without, worker.session, worker.monitor);
+    const design::Control& control = plan.condition.control;
+    const auto order_with = [&](int apex) {
+        return design::frame_order(control, job.frames, apex, plan.condition.seed);
+    };
+    int apex = 0;
+    if (control.kind == ControlKind::kApex) {
+        std::vector<int> forwards(static_cast<std::size_t>(job.frames));
+        std::iota(forwards.begin(), forwards.end(), 0);
+        apex = seen_motion(shown.rows, twin, forwards, plan.fps).apex.value_or(0);
+    }
+    shown.order = order_with(apex);
+    shown.motion = seen_motion(shown.rows, twin, shown.order, plan.fps);
+    if (shown.motion.seen_mm) shown.motion.full_mm = full_motion_mm(plan, worker);
+    if (std::is_sorted(shown.order.begin(), shown.order.end()) && shown.motion.seen_mm)
+        find_commanded(job.script, shown);
+    pictures.know(shown.rows);
+    pictures.finish(shown.order);
+    if (unmatched) shown.luminance = matched_luminance(plan, *unmatched, pictures);
     return shown;
 }
 
 /// The sidecar without the checksums of the files.
 Json sidecar_of(const ClipPlan& plan, ShownClip shown, ClipPictures& pictures) {
-    const auto shown_at = [&](int frame) {
-        return static_cast<int>(std::find(shown.order.begin(), shown.order.end(), frame) -
-                                shown.order.begin());
-    };
+    const auto or_null = [](const auto& value) { return value ? Json(*value) : Json(); };
+    Json motion = json_of(shown.motion, pictures.pixel_onset());
+    motion["commanded_onset_s"] = or_null(shown.commanded_onset_s);
+    motion["commanded_apex_s"] = or_null(shown.commanded_apex_s);
     Json record{{"format", "risorius-clip"},
                 {"version", 1},
                 {"stim_id", plan.condition.clip},
@@ -383,8 +460,9 @@ Json sidecar_of(const ClipPlan& plan, ShownClip shown, ClipPictures& pictures) {
                 {"frames", plan.frames},
                 {"fps", plan.fps},
                 {"duration_s", static_cast<double>(plan.frames) / plan.fps},
-                {"movement_onset_frame", shown_at(shown.moments.onset)},
-                {"apex_frame", shown_at(shown.moments.apex)},
+                {"movement_onset_frame", or_null(shown.motion.onset)},
+                {"apex_frame", or_null(shown.motion.apex)},
+                {"motion", std::move(motion)},
                 {"pictures_sha256", pictures.sha256()},
                 {"content_sha256", plan.content_sha256},
                 {"files", Json::object()},
@@ -419,7 +497,10 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
     media::VideoOptions coding;
     coding.crf = plan.clips.crf;
     coding.lossless = plan.clips.lossless;
+    coding.keyframe_interval = keyframe_interval(plan);
+    coding.still = shows_one_picture(plan.condition.control.kind) && !plan.clips.photodiode;
     animate::RenderJob job = render_job_of(plan, video_file, coding, worker);
+    if (ClipPictures::has_layers(plan)) job.view.background.transparent = true;
     if (plan.sound) {
         job.video.sound = sound_of(*plan.sound);
         job.video.sound_offset_samples = plan.sound->offset_samples;
@@ -430,8 +511,9 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
 
     // All files appear together, or none.
     video.finish();
-    write_file(written[files.events],
-               events_table(shown.rows, shown.order, pictures.measures(), plan));
+    const std::string table = events_table(shown.rows, shown.order, pictures.measures(), plan);
+    write_file(written[files.events], table);
+    write_file(written[files.columns], frame_columns(table, plan));
     media::write_png(pictures.strip(), written[files.strip]);
     if (plan.sound)
         media::write_wav(heard_of(*plan.sound, static_cast<double>(plan.frames) / plan.fps),

@@ -6,6 +6,7 @@
 ///   stimuli/stim-NAME_audio.wav                  the recording alone, with the loudness and duration that it has in the clip
 ///   stimuli/stim-NAME_annot-frames_events.tsv    a row for each frame as shown: onset and duration in s, source_frame, and the
 ///                                                columns of frame_table.h
+///   stimuli/stim-NAME_annot-frames_events.json   what each column of that table is
 ///   stimuli/stim-NAME_video.json                 the sidecar: how the clip was made; it exists only when the clip is complete
 ///   overview/NAME.png                            five of its frames side by side
 ///   code/scripts/NAME.json                       the script as it was played; it is written for the reader, not read back
@@ -14,7 +15,9 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +46,7 @@ struct ClipPlan {
     std::optional<ClipSound> sound;
     int frames = 0, fps = 0, width_px = 0, height_px = 0;
     std::array<std::uint8_t, 3> background{};  ///< sRGB of the displayed background
+    bool transparent = false;                  ///< whether there is none
     /// Checksum of face and view; clips with the same value can share a session
     std::string scene_sha256;
     std::string render_sha256;  ///< checksum of everything that the unmatched pictures depend on
@@ -50,6 +54,7 @@ struct ClipPlan {
     std::string content_sha256;
     bool render_is_shared = false;     ///< whether controls of the clip use the same render
     std::size_t condition_number = 0;  ///< index of the clip's condition among all conditions
+    std::string shown_sha256() const;  ///< of what a participant sees and hears, before matching
     double seconds() const;            ///< estimated time to make it on two cores
     double megabytes() const;          ///< estimated
     bool is_control() const { return condition.control.kind != design::ControlKind::kNone; }
@@ -66,13 +71,24 @@ bool is_made(const ClipPlan& plan, const std::filesystem::path& folder);
 
 /// The paths of a clip's files below the folder of the set.
 struct ClipFiles {
-    std::filesystem::path script, strip, video, events;
+    std::filesystem::path script, strip, video, events, columns;
     std::filesystem::path sound;    ///< empty when there is none
     std::filesystem::path sidecar;  ///< written last: a clip that has it is complete
     /// All files but the sidecar, which lists them.
     std::vector<std::filesystem::path> listed() const;
 };
 ClipFiles clip_files(const ClipPlan& plan);
+
+/// Keeps, for all workers, how far a face moves when an expression is settled at full intensity.
+class SettledMotions {
+  public:
+    /// Returns the known value, or that of `measure`, mm.
+    double at(const std::string& key, const std::function<double()>& measure);
+
+  private:
+    std::mutex mutex_;
+    std::map<std::string, double> known_;
+};
 
 /// The resources with which a worker of a batch makes clips.
 struct ClipWorker {
@@ -81,6 +97,7 @@ struct ClipWorker {
     int clips_at_once;                ///< number of clips that this process makes at the same time
     animate::RenderInputs& inputs;    ///< shared by all workers
     animate::RenderSession& session;  ///< owned by this worker
+    SettledMotions& settled;          ///< shared by all workers
     const ProgressMonitor& monitor;
 };
 

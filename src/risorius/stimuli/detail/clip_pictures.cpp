@@ -6,8 +6,11 @@
 #include <cstdio>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_cursor.h"
+#include "risorius/media/face_filter.h"
 #include "risorius/media/sync_marks.h"
 #include "risorius/report/contact_sheet.h"
+#include "risorius/stimuli/detail/unmatched_render.h"
 
 namespace risorius::stimuli {
 
@@ -17,26 +20,9 @@ namespace {
 
 constexpr int kStrip = 5, kThumb_px = 120;
 constexpr int kPhotodiode_px = 64;
-
-/// A window with soft edges. Outside it, the background is shown.
-struct Window {
-    double left = 0, top = 0, right = 0, bottom = 0;
-
-    void show(const std::array<std::uint8_t, 3>& outside, Image& image) const {
-        const double soft = 0.08 * (right - left);
-        for (int y = 0; y < image.height_px; ++y)
-            for (int x = 0; x < image.width_px; ++x) {
-                const double away = std::max({left - x, x - right, top - y, y - bottom, 0.0});
-                const double fraction =
-                    away >= soft ? 0.0 : 0.5 * (1 + std::cos(3.14159265358979 * away / soft));
-                std::uint8_t* pixel = image.pixel(x, y);
-                for (int k = 0; k < 3; ++k)
-                    pixel[k] = static_cast<std::uint8_t>(
-                        std::lround(fraction * pixel[k] +
-                                    (1 - fraction) * outside[static_cast<std::size_t>(k)]));
-            }
-    }
-};
+constexpr unsigned kNextFrame = 0x9E3779B9;
+constexpr double kLeastPxPerCycle = 4;  // an octave below half the sampling rate
+constexpr double kSeenChange = 1e-7;    // mean of squared differences of relative luminance
 
 /// A fixed window that contains the landmarks of eyes or mouth in all frames.
 Window window_around(const animate::FrameRows& rows, design::ControlKind kind,
@@ -89,7 +75,45 @@ std::optional<std::string> shown(const std::string& column, const media::Picture
     return {};
 }
 
+/// The distance of the landmarks zy_l and zy_r in the first frame, px.
+double width_of_face(const animate::FrameRows& rows, const std::string& place) {
+    const int left = rows.column("zy_l.u_px"), right = rows.column("zy_r.u_px");
+    if (left < 0 || right < 0)
+        throw Error(place, "a rig with the landmarks zy_l and zy_r", "none to measure the face by");
+    return std::hypot(rows.number(0, left) - rows.number(0, right),
+                      rows.number(0, left + 1) - rows.number(0, right + 1));
+}
+
+bool is_of_landmark(const std::string& column) {
+    return column.ends_with(".x_mm") || column.ends_with(".y_mm") || column.ends_with(".z_mm") ||
+           column.ends_with(".u_px") || column.ends_with(".v_px");
+}
+
 }  // namespace
+
+void Window::show(const std::array<std::uint8_t, 3>& outside, Image& image) const {
+    const double soft = 0.08 * (right - left);
+    for (int y = 0; y < image.height_px; ++y)
+        for (int x = 0; x < image.width_px; ++x) {
+            const double away = std::max({left - x, x - right, top - y, y - bottom, 0.0});
+            const double fraction =
+                away >= soft ? 0.0 : 0.5 * (1 + std::cos(3.14159265358979 * away / soft));
+            std::uint8_t* pixel = image.pixel(x, y);
+            for (int k = 0; k < 3; ++k)
+                pixel[k] = static_cast<std::uint8_t>(std::lround(
+                    fraction * pixel[k] + (1 - fraction) * outside[static_cast<std::size_t>(k)]));
+        }
+}
+
+bool needs_all_frames(const ClipPlan& plan) {
+    const ControlKind kind = plan.condition.control.kind;
+    return shows_other_order(kind) || shows_part(kind) ||
+           (plan.condition.control.changes_the_oval() && !plan.luminance);
+}
+
+bool ClipPictures::has_layers(const ClipPlan& plan) {
+    return plan.luminance || plan.condition.control.changes_the_oval();
+}
 
 bool shows_other_order(design::ControlKind kind) {
     return kind == design::ControlKind::kReversed || kind == design::ControlKind::kScrambled ||
@@ -100,34 +124,33 @@ bool shows_part(design::ControlKind kind) {
     return kind == design::ControlKind::kEyesOnly || kind == design::ControlKind::kMouthOnly;
 }
 
+bool shows_one_picture(design::ControlKind kind) {
+    return kind == design::ControlKind::kApex || kind == design::ControlKind::kNeutral;
+}
+
 ClipPictures::ClipPictures(const ClipPlan& plan, media::VideoWriter& video)
     : plan_(plan),
       kind_(plan.condition.control.kind),
       video_(video),
-      later_(shows_other_order(kind_) || shows_part(kind_)),
-      measured_(plan.tone || plan.condition.control.shows_otherwise()) {
+      later_(needs_all_frames(plan)),
+      measured_(plan.tone || plan.condition.control.shows_otherwise()),
+      layered_(has_layers(plan)) {
     if (plan.tone) tone_.emplace(*plan.tone);
     if (kind_ == design::ControlKind::kPhaseScrambled)
         phases_.emplace(plan.width_px, plan.height_px, plan.condition.seed);
 }
 
 void ClipPictures::add(Image image) {
-    if (tone_) tone_->apply(image);
     if (later_)
         held_.push_back(std::move(image));
     else
-        write(std::move(image));
+        write(std::move(image), added_++);
 }
 
-void ClipPictures::finish(const animate::FrameRows& rows, const std::vector<int>& order) {
+void ClipPictures::finish(const std::vector<int>& order) {
     if (!later_) return;
-    std::optional<Window> window;
-    if (shows_part(kind_)) window = window_around(rows, kind_, plan_.condition.clip);
-    for (const int frame : order) {
-        Image image = held_[static_cast<std::size_t>(frame)];
-        if (window) window->show(plan_.background, image);
-        write(std::move(image));
-    }
+    if (shows_part(kind_)) window_ = window_around(*rows_, kind_, plan_.condition.clip);
+    for (const int frame : order) write(held_[static_cast<std::size_t>(frame)], frame);
 }
 
 Image ClipPictures::strip() const {
@@ -143,9 +166,78 @@ Image ClipPictures::strip() const {
     return out;
 }
 
-void ClipPictures::write(Image image) {
+void ClipPictures::look_for_change(const Image& image) {
+    if (pixel_onset_) return;
+    const std::size_t pixels = image.rgba.size() / 4;
+    if (first_.empty()) {
+        for (std::size_t i = 0; i < pixels; ++i) {
+            const std::uint8_t* pixel = &image.rgba[4 * i];
+            const bool behind = std::equal(plan_.background.begin(), plan_.background.end(), pixel);
+            first_.push_back(behind ? -1 : media::relative_luminance(pixel));
+        }
+        return;
+    }
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        if (first_[i] < 0) continue;
+        const double change = media::relative_luminance(&image.rgba[4 * i]) - first_[i];
+        sum += change * change;
+        ++count;
+    }
+    if (count > 0 && sum / count > kSeenChange) pixel_onset_ = written_;
+}
+
+void ClipPictures::change_oval(const std::vector<float>& oval, int frame, Image& image) {
+    const design::Control& control = plan_.condition.control;
+    switch (kind_) {
+        case ControlKind::kPhaseScrambled:
+            phases_->scramble(image, oval);
+            break;
+        case ControlKind::kLowPass:
+        case ControlKind::kHighPass: {
+            const double face_px = width_of_face(*rows_, plan_.condition.clip);
+            if (face_px < kLeastPxPerCycle * control.cycles_per_face)
+                throw Error(plan_.condition.clip,
+                            "a face of " +
+                                format_number(kLeastPxPerCycle * control.cycles_per_face) +
+                                " px or more for this cycles_per_face",
+                            format_number(std::round(face_px)) + " px");
+            media::filter({.high = kind_ == ControlKind::kHighPass,
+                           .cut_cycles_per_px = control.cycles_per_face / face_px,
+                           .order = control.order,
+                           .keep_sd = control.keep_contrast},
+                          oval, image);
+            break;
+        }
+        case ControlKind::kNoise:
+            media::add_noise(control.snr_db,
+                             plan_.condition.seed + kNextFrame * static_cast<unsigned>(frame), oval,
+                             image);
+            break;
+        default:  // the oval alone
+            media::keep_weighted(oval, plan_.background, image);
+            break;
+    }
+}
+
+void ClipPictures::write(Image image, int frame) {
+    std::vector<float> measured, oval;
+    if (plan_.luminance) measured = measured_weights(plan_, *rows_, frame, image);
+    if (plan_.condition.control.changes_the_oval())
+        oval = weights_in_oval(plan_, *rows_, frame, image);
+    if (tone_) cut_off_ += tone_->cut_off(image, measured);
+    if (layered_) {
+        const media::ToneCurve curve = tone_.value_or(media::ToneCurve(media::Tone{}));
+        if (plan_.transparent)
+            curve.apply(image);
+        else
+            curve.apply_over(plan_.background, image);
+    }
+    if (!oval.empty()) change_oval(oval, frame, image);
+    if (window_) window_->show(plan_.background, image);
+    if (plan_.luminance) luminance_.add(image, measured);
     if (kind_ == design::ControlKind::kUpsideDown) turn_upside_down(image);
-    if (phases_) phases_->scramble(image);
+    look_for_change(image);
     if (measured_) measures_.push_back(meter_.measure(image));
     const int height = std::min(kThumb_px, image.height_px);
     thumbs_.push_back(
@@ -163,7 +255,10 @@ std::string events_table(const animate::FrameRows& rows, const std::vector<int>&
                          const std::vector<media::PictureMeasures>& measures,
                          const ClipPlan& plan) {
     std::string out = "onset\tduration\tframe\tsource_frame";
-    for (std::size_t c = 2; c < rows.names.size(); ++c) out += "\t" + rows.names[c];
+    std::vector<std::size_t> columns;
+    for (std::size_t c = 2; c < rows.names.size(); ++c)
+        if (plan.clips.landmarks || !is_of_landmark(rows.names[c])) columns.push_back(c);
+    for (const std::size_t c : columns) out += "\t" + rows.names[c];
     if (plan.clips.photodiode) out += "\tphotodiode";
     out += "\n";
     const bool turned = plan.condition.control.kind == design::ControlKind::kUpsideDown;
@@ -172,7 +267,7 @@ std::string events_table(const animate::FrameRows& rows, const std::vector<int>&
         out += decimal_text(static_cast<double>(i) / plan.fps, 6) + "\t" +
                decimal_text(1.0 / plan.fps, 6) + "\t" + std::to_string(i) + "\t" +
                std::to_string(order[i]);
-        for (std::size_t c = 2; c < rows.names.size(); ++c) {
+        for (const std::size_t c : columns) {
             const std::string& name = rows.names[c];
             const auto ends = [&](const char* end) {
                 return name.size() > 5 && name.compare(name.size() - 5, 5, end) == 0;

@@ -21,16 +21,37 @@ namespace risorius::stimuli {
 bool shows_other_order(design::ControlKind kind);
 /// Returns whether the control shows only a window around eyes or mouth.
 bool shows_part(design::ControlKind kind);
+/// Returns whether the clip is one picture, shown all the time.
+bool shows_one_picture(design::ControlKind kind);
+
+/// Returns whether all frames are needed before the first one is written.
+bool needs_all_frames(const ClipPlan& plan);
+
+/// A window with soft edges, px. Outside it, the background is shown.
+struct Window {
+    double left = 0, top = 0, right = 0, bottom = 0;
+    void show(const std::array<std::uint8_t, 3>& outside, Image& image) const;
+};
 
 /// Processes the pictures of one clip.
 class ClipPictures {
   public:
     ClipPictures(const ClipPlan& plan, media::VideoWriter& video);
 
+    /// Returns whether the pictures come with a transparent background: they are then put over that of the script.
+    static bool has_layers(const ClipPlan& plan);
+
+    /// Gives the table of the frames. It must be known before finish(), and before the first picture of a matched clip.
+    void know(const animate::FrameRows& rows) { rows_ = &rows; }
     /// Adds a rendered picture, in the order of the frames.
     void add(Image image);
     /// Call this after the last picture. It writes the pictures if the control needs all frames first.
-    void finish(const animate::FrameRows& rows, const std::vector<int>& order);
+    void finish(const std::vector<int>& order);
+
+    /// Returns the luminance of the pictures as shown, within the part that is matched; and the fraction of values that were clipped,
+    /// mean over frames. Of matched clips only.
+    const media::LuminanceSums& luminance() const { return luminance_; }
+    double cut_off() const { return written_ > 0 ? cut_off_ / written_ : 0; }
 
     /// Returns five frames, spread over the clip, side by side.
     Image strip() const;
@@ -39,18 +60,32 @@ class ClipPictures {
     /// Returns the measures of each frame of the clip, without marks; empty when those of the render are still valid.
     const std::vector<media::PictureMeasures>& measures() const { return measures_; }
 
+    /// Returns the first frame whose pictures differ from the first one by more than 1e-7, which is the mean squared difference of
+    /// luminance over what is not background.
+    std::optional<int> pixel_onset() const { return pixel_onset_; }
+
   private:
-    void write(Image image);
+    void write(Image image, int frame);
+    void change_oval(const std::vector<float>& oval, int frame, Image& image);
+    void look_for_change(const Image& image);
 
     const ClipPlan& plan_;
     design::ControlKind kind_;
     std::optional<media::ToneCurve> tone_;
     media::VideoWriter& video_;
-    bool later_, measured_;
+    bool later_, measured_, layered_;
+    const animate::FrameRows* rows_ = nullptr;
+    std::optional<Window> window_;
+    media::LuminanceSums luminance_;
+    double cut_off_ = 0;
+    int added_ = 0;
     std::optional<media::PhaseScrambler> phases_;
     media::LuminanceMeter meter_;
     std::vector<media::PictureMeasures> measures_;
     int written_ = 0;
+    std::vector<double>
+        first_;  ///< luminance of the first picture; -1 where it shows the background
+    std::optional<int> pixel_onset_;
     std::vector<Image> held_, thumbs_;
     media::Sha256 hash_;
 };

@@ -33,12 +33,12 @@ ClipSound SoundPlans::at(const design::Condition& condition, double duration_s,
         throw Error(place, "an audio_start_s with which the clip contains some of the recording",
                     format_number(condition.audio_start_s));
     out.offset_samples = std::llround(condition.audio_start_s * recording.rate_hz);
-    out.loudness = media::loudness_of(recording, out.offset_samples,
-                                      std::llround(duration_s * recording.rate_hz));
+    // Of the whole recording, so that the gain does not depend on when it is heard
+    out.loudness = media::loudness_of(recording, 0, static_cast<std::int64_t>(recording.length()));
     if (lufs) {
         if (!std::isfinite(out.loudness.integrated_lufs))
             throw Error(place, "at least 0.4 s of sound, to match its loudness",
-                        out.file.string() + ", of which the clip contains less");
+                        out.file.string() + ", which has less");
         out.gain_db = *lufs - out.loudness.integrated_lufs;
         out.loudness.integrated_lufs += out.gain_db;
         out.loudness.true_peak_dbtp += out.gain_db;

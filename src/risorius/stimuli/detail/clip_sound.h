@@ -15,7 +15,7 @@
 
 namespace risorius::stimuli {
 
-/// A recording, and the loudness of the part of it that the clip contains.
+/// A recording, and its loudness as a whole.
 struct ClipSound {
     std::filesystem::path file;
     std::string sha256;

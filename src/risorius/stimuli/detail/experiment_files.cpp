@@ -22,7 +22,7 @@ bool is_shown(const design::ExperimentOptions& experiment, const design::Conditi
                                                  condition.set) != experiment.sets.end());
 }
 
-/// The background of the screen, taken from the first clip.
+/// The background of the screen, which is that of all clips.
 std::string screen_colour(const BatchPlan& plan) {
     for (const ClipPlan& clip : plan.clips)
         if (is_shown(*plan.experiment, clip.condition)) {
@@ -44,6 +44,15 @@ std::string plain_text(const Json& value) {
 std::string correct_key(const design::ExperimentOptions& experiment,
                         const design::Condition& condition) {
     if (!experiment.correct) return {};
+    // These do not show what the condition shows.
+    const design::ControlKind kind = condition.control.kind;
+    if (kind == design::ControlKind::kPhaseScrambled || kind == design::ControlKind::kKnockOut)
+        return {};
+    if (kind == design::ControlKind::kNeutral) {
+        for (const auto& [key, answer] : experiment.answers)
+            if (answer == "neutral") return key;
+        return {};
+    }
     for (const auto& [name, value] : condition.values)
         if (name == *experiment.correct)
             for (const auto& [key, answer] : experiment.answers)
@@ -77,8 +86,6 @@ std::vector<Json> condition_rows(const BatchPlan& plan, const std::vector<Json>&
                  {"control", clip.condition.control.name()},
                  {"frames", records[i].at("frames")},
                  {"fps", records[i].at("fps")},
-                 {"movement_onset_frame", records[i].at("movement_onset_frame")},
-                 {"apex_frame", records[i].at("apex_frame")},
                  {"audio_file", clip.sound ? "../stimuli/stim-" + clip.condition.clip + "_audio.wav"
                                            : std::string()},
                  {"correct_key", correct_key(*plan.experiment, clip.condition)}};
@@ -108,6 +115,19 @@ std::string csv_table(const std::vector<Json>& rows) {
     return out;
 }
 
+/// Throws Error when clips that are shown have different backgrounds: the screen around them can have only one.
+void check_backgrounds(const BatchPlan& plan) {
+    const ClipPlan* first = nullptr;
+    for (const ClipPlan& clip : plan.clips) {
+        if (!is_shown(*plan.experiment, clip.condition)) continue;
+        if (!first) first = &clip;
+        if (clip.background != first->background)
+            throw Error(
+                "experiment", "one background in all clips that are shown",
+                "another one in " + clip.condition.clip + " than in " + first->condition.clip);
+    }
+}
+
 }  // namespace
 
 void check_experiment(BatchPlan& plan) {
@@ -128,6 +148,7 @@ void check_experiment(BatchPlan& plan) {
             throw Error("clips/ending", "mp4 or webm, which browsers play, for jspsych",
                         clip.clips.ending);
     }
+    check_backgrounds(plan);
     if (!any) throw Error("experiment", "at least one clip that is shown", "none");
     if (experiment.correct && !any_correct)
         throw Error("experiment/correct", "a parameter with values that are among the answers",
@@ -151,6 +172,8 @@ void write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
                         {"answers", answers},
                         {"repetitions", experiment.repetitions},
                         {"fixation_s", experiment.fixation_s},
+                        {"answer_during", experiment.answer_during},
+                        {"pulse_ms", plan.pulse_ms},
                         {"background", screen_colour(plan)}};
     const auto write = [&](const char* name, const std::string& text) {
         write_below(fs::path("experiment") / name, text);

@@ -3,7 +3,7 @@
 /// An example experiment for a set of clips: the clips are shown in random order, and the participant answers a question by
 /// pressing a key.
 ///
-///   experiment/conditions.csv    a row for each clip: file, frames, fps, movement_onset_frame, apex_frame, the right key, values
+///   experiment/conditions.csv    a row for each clip: file, frames, fps, the right key, values
 ///   experiment/settings.json     question, keys, times
 ///   experiment/experiment.py     for PsychoPy
 ///   experiment/index.html        for jsPsych, in a browser

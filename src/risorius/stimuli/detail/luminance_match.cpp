@@ -2,6 +2,7 @@
 #include "risorius/stimuli/detail/luminance_match.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -79,21 +80,106 @@ std::vector<std::size_t> unmeasured(const BatchPlan& plan, const fs::path& folde
     return out;
 }
 
+namespace {
+
+using OneFor = design::LuminanceMatch::OneFor;
+
+/// Conditions that get the same map.
+struct Group {
+    media::ColourSums colours;
+    std::vector<std::pair<std::string, media::ColourSums>> clips;
+    media::FittedTone fit;
+};
+
+/// The clip that a tone clips most, and how much.
+std::pair<std::string, double> most_cut(const Group& group, const media::Tone& tone) {
+    std::pair<std::string, double> worst{"", -1};
+    for (const auto& [clip, colours] : group.clips)
+        if (const double cut = colours.after(tone).cut; cut > worst.second) worst = {clip, cut};
+    return worst;
+}
+
+/// The largest standard deviation for which no clip is clipped more than the limit.
+double reachable_sd(const Group& group, double mean, double sd, double limit) {
+    double low = 0, high = sd;
+    for (int step = 0; step < 20; ++step) {
+        const double middle = (low + high) / 2;
+        if (most_cut(group, media::fitted_tone(group.colours, mean, middle).tone).second <= limit)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+std::string percent(double fraction) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g %%", 100 * fraction);
+    return text;
+}
+
+/// Throws Error, or adds a note, when the map of a group clips too much.
+void check_cut(const design::LuminanceMatch& match, const std::map<std::string, Group>& groups,
+               double mean, double sd, std::vector<std::string>& notes) {
+    std::pair<std::string, double> worst{"", -1};
+    double reachable = sd;
+    for (const auto& [name, group] : groups) {
+        const auto most = most_cut(group, group.fit.tone);
+        if (most.second > worst.second) worst = most;
+        if (most.second > match.cut_limit && !match.allow_clipping)
+            reachable = std::min(reachable, reachable_sd(group, mean, sd, match.cut_limit));
+    }
+    if (worst.second <= match.cut_limit) return;
+    const std::string found =
+        percent(worst.second) + " of the values of " + worst.first + " clipped at black or white";
+    if (!match.allow_clipping)
+        throw Error("match/luminance",
+                    percent(match.cut_limit) + " clipped at most, with this mean \"sd\": " +
+                        format_number(std::floor(1000 * reachable) / 1000) +
+                        " or less, or \"allow_clipping\": true",
+                    found);
+    notes.push_back("match/luminance: " + found);
+}
+
+/// The group of a clip. A neutral face is the same in all conditions of a head, and so is its brightness.
+std::string group_of(const ClipPlan& clip, OneFor one_for) {
+    if (one_for == OneFor::kAll) return "";
+    const bool neutral = clip.condition.control.kind == design::ControlKind::kNeutral;
+    return one_for == OneFor::kIdentity || neutral ? clip.scene_sha256
+                                                   : "clip " + clip.condition.of;
+}
+
+}  // namespace
+
 void match_luminance(const fs::path& folder, BatchPlan& plan) {
     if (!plan.match.luminance) return;
     const design::LuminanceMatch& match = *plan.match.luminance;
     media::LuminanceSums all;
-    std::map<std::string, media::LuminanceSums> of;
+    std::map<std::string, Group> groups;
     for (const ClipPlan& clip : plan.clips) {
-        if (clip.is_control()) continue;
+        if (clip.is_control()) {
+            // A neutral face has the map of its head also when each condition has its own.
+            groups[group_of(clip, match.one_for)];
+            continue;
+        }
         const auto measured = measured_luminance(clip, folder);
         if (!measured) throw RunError(clip.condition.clip + ": its measured luminance is missing");
-        all.add(of[clip.condition.clip] = *measured);
+        all.add(measured->sums);
+        Group& group = groups[group_of(clip, match.one_for)];
+        group.colours.add(measured->colours);
+        group.clips.emplace_back(clip.condition.clip, measured->colours);
     }
+    if (match.one_for == OneFor::kClip)
+        for (const ClipPlan& clip : plan.clips)
+            if (const auto neutral = groups.find(clip.scene_sha256);
+                !clip.is_control() && neutral != groups.end())
+                neutral->second.colours.add(
+                    groups.at(group_of(clip, match.one_for)).clips.front().second);
     if (!(all.sd() > 0)) throw RunError("the pictures have no contrast that could be matched");
     const double mean = match.mean.value_or(all.mean()), sd = match.sd.value_or(all.sd());
-    for (ClipPlan& clip : plan.clips)
-        clip.match(media::tone_between(match.per_clip ? of.at(clip.condition.of) : all, mean, sd));
+    for (auto& [name, group] : groups) group.fit = media::fitted_tone(group.colours, mean, sd);
+    check_cut(match, groups, mean, sd, plan.notes);
+    for (ClipPlan& clip : plan.clips) clip.match(groups.at(group_of(clip, match.one_for)).fit.tone);
 }
 
 std::vector<plot::Chart> write_luminance_report(const BatchPlan& plan,
@@ -123,7 +209,9 @@ std::vector<plot::Chart> write_luminance_report(const BatchPlan& plan,
         return value ? Json(*value) : Json();
     };
     const Json json{{"within", match.within_face ? "face" : "picture"},
-                    {"one_for", match.per_clip ? "clip" : "all"},
+                    {"one_for", match.one_for == OneFor::kAll        ? "all"
+                                : match.one_for == OneFor::kIdentity ? "identity"
+                                                                     : "clip"},
                     {"wanted", {{"mean", wanted(match.mean)}, {"sd", wanted(match.sd)}}},
                     {"before", described(of.before)},
                     {"after", described(of.after)},

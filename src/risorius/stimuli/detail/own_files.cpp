@@ -25,16 +25,29 @@ constexpr FileKind kSums{"a list of checksums", 100 * kMegabyte};
 constexpr FileKind kShellScript{"a script of the shell", kMegabyte};
 
 /// The files of a set beside those of its clips, see stimulus_set.h and experiment_files.h.
-constexpr std::array kFilesOfSet{"dataset_description.json",  "stimuli/stimuli.tsv",
-                                 "stimuli/stimuli.json",      "triggers.tsv",
-                                 "code/design.json",          "index.html",
-                                 "luminance/luminance.tsv",   "luminance/luminance.json",
-                                 "luminance/mean.svg",        "luminance/mean.png",
-                                 "luminance/mean.gp",         "luminance/mean.data.csv",
-                                 "luminance/sd.svg",          "luminance/sd.png",
-                                 "luminance/sd.gp",           "luminance/sd.data.csv",
-                                 "experiment/conditions.csv", "experiment/settings.json",
-                                 "experiment/experiment.py",  "experiment/index.html"};
+constexpr std::array kFilesOfSet{"dataset_description.json",
+                                 "README",
+                                 ".bidsignore",
+                                 "stimuli/annotations.tsv",
+                                 "stimuli/stimuli.tsv",
+                                 "stimuli/stimuli.json",
+                                 "triggers.tsv",
+                                 "code/design.json",
+                                 "index.html",
+                                 "luminance/luminance.tsv",
+                                 "luminance/luminance.json",
+                                 "luminance/mean.svg",
+                                 "luminance/mean.png",
+                                 "luminance/mean.gp",
+                                 "luminance/mean.data.csv",
+                                 "luminance/sd.svg",
+                                 "luminance/sd.png",
+                                 "luminance/sd.gp",
+                                 "luminance/sd.data.csv",
+                                 "experiment/conditions.csv",
+                                 "experiment/settings.json",
+                                 "experiment/experiment.py",
+                                 "experiment/index.html"};
 
 /// Whether it is a regular file that is reached without links.
 bool is_plain_file(const fs::path& folder, const fs::path& relative) {
@@ -134,7 +147,8 @@ void add_listed(const fs::path& folder, std::set<fs::path>& files) {
         const std::size_t gap = line.find("  ");
         if (gap == std::string::npos) continue;
         const std::string file = line.substr(gap + 2);
-        if (std::find(kFilesOfSet.begin(), kFilesOfSet.end(), file) != kFilesOfSet.end() &&
+        const std::string beside = file.ends_with(".new") ? file.substr(0, file.size() - 4) : file;
+        if (std::find(kFilesOfSet.begin(), kFilesOfSet.end(), beside) != kFilesOfSet.end() &&
             has_bytes(folder, file, line.substr(0, gap)))
             files.insert(file);
     }

@@ -13,6 +13,7 @@
 #include "risorius/media/sha256.h"
 #include "risorius/plot/write_chart.h"
 #include "risorius/report/html_writer.h"
+#include "risorius/stimuli/detail/catalogue.h"
 #include "risorius/stimuli/detail/experiment_files.h"
 #include "risorius/stimuli/detail/luminance_match.h"
 #include "risorius/stimuli/detail/own_files.h"
@@ -23,117 +24,64 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kMissing = "n/a";  // the marker of BIDS for missing values
-
-std::string cell(const Json& value) {
-    if (value.is_null()) return kMissing;
-    std::string text = value.is_string()   ? value.get<std::string>()
-                       : value.is_number() ? format_number(value.get<double>())
-                                           : json_text(value);
-    for (char& c : text)
-        if (c == '\t' || c == '\n' || c == '\r') c = ' ';
-    return text.empty() ? kMissing : text;
-}
-
-/// The names of values of all clips, in the order of their first occurrence.
-std::vector<std::string> value_names(const std::vector<Json>& records) {
-    std::vector<std::string> out;
-    for (const Json& record : records)
-        for (const auto& [name, value] : record.at("values").items())
-            if (name != "set" && std::find(out.begin(), out.end(), name) == out.end())
-                out.push_back(name);
-    return out;
-}
-
-bool has_sound(const std::vector<ClipPlan>& clips) {
-    return std::any_of(clips.begin(), clips.end(),
-                       [](const ClipPlan& clip) { return clip.sound.has_value(); });
-}
-
-std::string catalogue(const std::vector<Json>& records, const std::vector<ClipPlan>& clips) {
-    const std::vector<std::string> names = value_names(records);
-    std::string out =
-        "stim_id\tstim_file\tset\tcontrol\tcontrol_of\tframes\tfps\tduration_s\t"
-        "movement_onset_s\tapex_s\tpictures_sha256";
-    const bool heard = has_sound(clips);
-    if (heard) out += "\tloudness_lufs\ttrue_peak_dbtp";
-    for (const std::string& name : names) out += "\t" + name;
-    out += "\n";
-    for (std::size_t i = 0; i < records.size(); ++i) {
-        const Json& one = records[i];
-        const double fps = one.at("fps").get<double>();
-        const std::string control = one.at("control").get<std::string>();
-        out += one.at("stim_id").get<std::string>() + "\t" +
-               clip_files(clips[i]).video.filename().string() + "\t" + cell(one.at("set")) + "\t" +
-               (control.empty() ? kMissing : control) + "\t" +
-               (control.empty() ? kMissing : one.at("of").get<std::string>()) + "\t" +
-               cell(one.at("frames")) + "\t" + cell(one.at("fps")) + "\t" +
-               cell(one.at("duration_s")) + "\t" +
-               format_number(one.at("movement_onset_frame").get<double>() / fps) + "\t" +
-               format_number(one.at("apex_frame").get<double>() / fps) + "\t" +
-               one.at("pictures_sha256").get<std::string>();
-        for (const char* key : {"loudness_lufs", "true_peak_dbtp"})
-            if (heard)
-                out += "\t" + (one.contains("audio") ? cell(one.at("audio").at(key)) : kMissing);
-        for (const std::string& name : names) {
-            const auto value = one.at("values").find(name);
-            out += "\t" + (value == one.at("values").end() ? kMissing : cell(*value));
-        }
-        out += "\n";
-    }
-    return out;
-}
-
-Json catalogue_columns(const std::vector<Json>& records, const std::vector<ClipPlan>& clips) {
-    Json out{
-        {"stim_id", {{"Description", "Name of the clip"}}},
-        {"stim_file", {{"Description", "The video, in this folder"}}},
-        {"set", {{"Description", "Set of conditions of the design"}}},
-        {"control", {{"Description", "What differs from the clip it is a control of"}}},
-        {"control_of", {{"Description", "stim_id of that clip"}}},
-        {"frames", {{"Description", "Number of frames"}}},
-        {"fps", {{"Description", "Frames per second, constant"}, {"Units", "Hz"}}},
-        {"duration_s", {{"Description", "Frames over frame rate"}, {"Units", "s"}}},
-        {"movement_onset_s",
-         {{"Description",
-           "Start of the first frame in which a landmark of the face has moved by 0.3 mm, or by "
-           "5 % of the farthest way of any landmark if that is less"},
-          {"Units", "s"}}},
-        {"apex_s",
-         {{"Description",
-           "Start of the frame in which a landmark is farthest from where it was in the first"},
-          {"Units", "s"}}},
-        {"pictures_sha256",
-         {{"Description", "Of the RGBA bytes of all frames before they were encoded"}}}};
-    if (has_sound(clips)) {
-        out["loudness_lufs"] = {
-            {"Description", "Integrated loudness of the clip's sound by EBU R 128"},
-            {"Units", "LUFS"}};
-        out["true_peak_dbtp"] = {{"Description", "Highest peak of the clip's sound by EBU R 128"},
-                                 {"Units", "dBTP"}};
-    }
-    for (const std::string& name : value_names(records))
-        out[name] = {{"Description", "Parameter of the design, see code/design.json"}};
-    return out;
-}
-
-/// triggers.tsv, with the codes 1 clip_on, 2 movement_onset, 3 apex and 4 clip_off.
+/// triggers.tsv, with the codes 1 clip_on, 2 movement_onset, 3 apex and 4 clip_off. A moment that a clip does not have gets no row.
+/// Of several moments in one frame, the first has the code.
 std::string triggers(const std::vector<Json>& records) {
-    std::string out = "stim_id\tevent\tcode\tframe\ttime_s\n";
+    std::string out = "stim_id\tevent\tcode\tframe\ttime_s\tmerged_into\n";
     for (const Json& one : records) {
         const double fps = one.at("fps").get<double>();
-        const auto row = [&](const char* event, int code, int frame) {
+        std::map<int, std::string> taken;
+        const auto row = [&](const char* event, int code, const Json& at) {
+            if (at.is_null()) return;
+            const int frame = at.get<int>();
+            const auto [first, is_new] = taken.emplace(frame, event);
             out += one.at("stim_id").get<std::string>() + "\t" + event + "\t" +
                    std::to_string(code) + "\t" + std::to_string(frame) + "\t" +
-                   format_number(frame / fps) + "\n";
+                   format_number(frame / fps) + "\t" + (is_new ? kMissingCell : first->second) +
+                   "\n";
         };
         row("clip_on", 1, 0);
-        row("movement_onset", 2, one.at("movement_onset_frame").get<int>());
-        row("apex", 3, one.at("apex_frame").get<int>());
-        row("clip_off", 4, one.at("frames").get<int>());
+        row("movement_onset", 2, one.at("movement_onset_frame"));
+        row("apex", 3, one.at("apex_frame"));
+        row("clip_off", 4, one.at("frames"));
     }
     return out;
 }
+
+/// README of the data set.
+std::string read_me(const BatchPlan& plan) {
+    return "# " + plan.name + "\n\nStimuli: " + std::to_string(plan.clips.size()) +
+           " clips of synthetic faces. They were simulated and rendered by Risorius " +
+           std::string(kVersion) +
+           " from the design code/design.json; no person is shown.\n\n"
+           "- stimuli/stimuli.tsv lists the clips with their values, and with the times at which\n"
+           "  movement is seen; stimuli/stimuli.json says what each column is.\n"
+           "- Beside each clip there is a table with a row for each frame, and how it was made.\n"
+           "- triggers.tsv lists the codes that the programs in experiment/ send.\n"
+           "- SHA256SUMS has the checksums of all files.\n";
+}
+
+Json dataset_description(const BatchPlan& plan) {
+    Json out{{"Name", plan.name},
+             {"BIDSVersion", "1.10.0"},
+             {"DatasetType", "derivative"},
+             {"License", plan.dataset.license},
+             {"Authors", plan.dataset.authors},
+             {"GeneratedBy",
+              Json::array({{{"Name", "Risorius"},
+                            {"Version", kVersion},
+                            {"Description", "Simulated and rendered: every face is synthetic"}}})}};
+    return out;
+}
+
+/// Files that BIDS does not know.
+constexpr const char* kBidsIgnore =
+    "SHA256SUMS\nindex.html\ntriggers.tsv\ncode/\nexperiment/\nluminance/\noverview/\n"
+    "intermediate/\n*.new\n.risorius-*\n";
+/// The annotations of BEP044.
+constexpr const char* kAnnotations =
+    "annot_id\tdescription\nannot-frames\tA row for each frame as it is shown: drive of the face, "
+    "landmarks and luminance\n";
 
 std::string overview(const std::string& name, const std::vector<Json>& records,
                      const std::vector<ClipPlan>& clips) {
@@ -166,9 +114,9 @@ std::string overview(const std::string& name, const std::vector<Json>& records,
         html.close();
         std::string said = clips[i].condition.clip + ": ";
         for (const auto& [key, value] : one.at("values").items())
-            if (key != "set") said += key + " " + cell(value) + ", ";
-        said += std::to_string(one.at("frames").get<int>()) + " frames at " + cell(one.at("fps")) +
-                " fps";
+            if (key != "set") said += key + " " + catalogue_cell(value) + ", ";
+        said += std::to_string(one.at("frames").get<int>()) + " frames at " +
+                catalogue_cell(one.at("fps")) + " fps";
         html.element("figcaption", said);
         html.close();
     }
@@ -191,11 +139,22 @@ void remove_empty_folders(const fs::path& folder) {
             fs::remove(folder / below, ignored);  // fails for one that is not empty, as intended
 }
 
+/// Whether somebody has changed a file of the set, or put another one there.
+bool is_changed(const fs::path& folder, const fs::path& name, const std::set<fs::path>& own,
+                const std::string& text) {
+    const ReadingFormerOutput former;
+    std::error_code none;
+    return fs::is_regular_file(folder / name, none) && own.count(name) == 0 &&
+           text_of_file(folder / name) != text;
+}
+
 }  // namespace
 
-void write_set(const BatchPlan& plan, const fs::path& design, const fs::path& folder,
-               const ProgressMonitor& monitor) {
+std::vector<std::string> write_set(const BatchPlan& plan, const BatchOptions& options,
+                                   const ProgressMonitor& monitor) {
+    const fs::path &design = options.design, &folder = options.out;
     std::set<fs::path> files;
+    std::vector<std::string> changed;
     std::vector<Json> records;
     for (const ClipPlan& clip : plan.clips) {
         const ClipFiles its = clip_files(clip);
@@ -205,24 +164,24 @@ void write_set(const BatchPlan& plan, const fs::path& design, const fs::path& fo
     }
     OutputSet outputs(folder);
     std::map<fs::path, fs::path> fresh;
+    const std::set<fs::path> own = own_files(folder);
     const WriteFile write = [&](const fs::path& name, const std::string& text) {
-        fresh[name] = outputs.file(folder / name);
-        write_file(fresh[name], text);
-        files.insert(name);
+        fs::path to = name;
+        if (!options.replace && is_changed(folder, name, own, text)) {
+            changed.push_back(name.generic_string());
+            to += ".new";
+        }
+        fresh[to] = outputs.file(folder / to);
+        write_file(fresh[to], text);
+        files.insert(to);
     };
-    write("dataset_description.json",
-          json_text(Json{{"Name", plan.name},
-                         {"BIDSVersion", "1.10.0"},
-                         {"DatasetType", "derivative"},
-                         {"GeneratedBy",
-                          Json::array({{{"Name", "Risorius"},
-                                        {"Version", kVersion},
-                                        {"Description",
-                                         "Simulated and rendered: every face is synthetic"}}})}},
-                    2) +
-              "\n");
-    write("stimuli/stimuli.tsv", catalogue(records, plan.clips));
-    write("stimuli/stimuli.json", json_text(catalogue_columns(records, plan.clips), 2) + "\n");
+    write("dataset_description.json", json_text(dataset_description(plan), 2) + "\n");
+    write("README", read_me(plan));
+    write(".bidsignore", kBidsIgnore);
+    const Catalogue catalogue = catalogue_of(plan, records);
+    write("stimuli/stimuli.tsv", catalogue.table);
+    write("stimuli/stimuli.json", json_text(catalogue.columns, 2) + "\n");
+    write("stimuli/annotations.tsv", kAnnotations);
     write("triggers.tsv", triggers(records));
     // It may be the design that is read.
     if (std::error_code none; fs::equivalent(design, folder / "code/design.json", none))
@@ -242,7 +201,9 @@ void write_set(const BatchPlan& plan, const fs::path& design, const fs::path& fo
             }
         }
     if (plan.experiment) write_experiment(plan, records, write);
+    for (const std::string& name : changed) files.insert(name);  // they stay
     remove_former_files(folder, files, outputs);
+    for (const std::string& name : changed) files.erase(name);
     const ReadingFormerOutput former;
     std::string sums;
     for (const fs::path& file : files) {
@@ -254,6 +215,7 @@ void write_set(const BatchPlan& plan, const fs::path& design, const fs::path& fo
     monitor.throw_if_stopped();
     outputs.commit();
     remove_empty_folders(folder);
+    return changed;
 }
 
 }  // namespace risorius::stimuli

@@ -19,6 +19,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr double kOvalRim = 0.08;  // of its width
+
 /// The file of a clip with the given extension; `below` is one of kIntermediateFolders.
 fs::path intermediate_file(const std::string& clip, const char* ending,
                            const char* below = kIntermediateFolders[0]) {
@@ -42,6 +44,7 @@ std::optional<UnmatchedRender> complete_render(const ClipPlan& plan, const std::
         render.run = record.at("run");
         render.table = text_of_file(table);
         render.luminance = sums_of(record.at("luminance"));
+        render.colours = record.at("colours");
         return render;
     } catch (const std::exception&) {
         return {};  // another or an incomplete file: the clip is rendered again
@@ -59,9 +62,8 @@ media::LuminanceSums sums_of(const Json& json) {
             json.at("squares").get<double>()};
 }
 
-std::vector<std::uint16_t> measured_part(const ClipPlan& plan, const animate::FrameRows& rows,
-                                         int frame) {
-    if (!plan.luminance || !plan.luminance->within_face) return {};
+std::vector<float> weights_in_oval(const ClipPlan& plan, const animate::FrameRows& rows, int frame,
+                                   const Image& picture) {
     std::vector<Vec2> border;
     for (const std::string& id : scene::FaceOval::landmarks()) {
         const int u = rows.column(id + ".u_px"), v = rows.column(id + ".v_px");
@@ -70,15 +72,20 @@ std::vector<std::uint16_t> measured_part(const ClipPlan& plan, const animate::Fr
     if (border.size() < 3)
         throw Error(plan.condition.clip, "a rig with landmarks around the face",
                     std::to_string(border.size()));
-    const scene::FaceOval oval(std::move(border));
-    std::vector<std::uint16_t> out(static_cast<std::size_t>(plan.width_px) *
-                                   static_cast<std::size_t>(plan.height_px));
-    for (int y = 0; y < plan.height_px; ++y) {
-        const scene::FaceOval::Span inside = oval.pixels_of_row(y, plan.width_px);
-        for (int x = inside.first; x < inside.end; ++x)
-            out[static_cast<std::size_t>(y) * static_cast<std::size_t>(plan.width_px) +
-                static_cast<std::size_t>(x)] = 1;
-    }
+    std::vector<float> out = scene::FaceOval(std::move(border))
+                                 .soft_pixels(picture.width_px, picture.height_px, kOvalRim);
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] *= static_cast<float>(picture.rgba[4 * i + 3]) / 255.0F;
+    return out;
+}
+
+std::vector<float> measured_weights(const ClipPlan& plan, const animate::FrameRows& rows, int frame,
+                                    const Image& picture) {
+    if (plan.luminance && plan.luminance->within_face)
+        return weights_in_oval(plan, rows, frame, picture);
+    std::vector<float> out(picture.rgba.size() / 4);
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = static_cast<float>(picture.rgba[4 * i + 3]) / 255.0F;
     return out;
 }
 
@@ -99,7 +106,8 @@ void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker) {
                    video_file = outputs.file(folder / intermediate_file(clip, ".mkv")),
                    table_file = outputs.file(folder / intermediate_file(clip, ".tsv"));
 
-    const animate::RenderJob job = render_job_of(plan, video_file, {}, worker);
+    animate::RenderJob job = render_job_of(plan, video_file, {}, worker);
+    job.view.background.transparent = job.video.alpha = true;
     media::VideoWriter video(video_file, job.video);
     const animate::RenderResult result = animate::run_render_job(
         job, worker.session, [&](const Image& image) { video.append(image); }, worker.monitor);
@@ -110,13 +118,18 @@ void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker) {
     const animate::FrameRows rows = animate::frame_rows(result.table);
     const ReadingFormerOutput own;
     media::VideoReader reader(video_file);
-    media::LuminanceSums sums;
-    for (int frame = 0; frame < reader.frames(); ++frame)
-        sums.add(reader.frame(frame), measured_part(plan, rows, frame));
+    MeasuredLuminance measured;
+    for (int frame = 0; frame < reader.frames(); ++frame) {
+        const Image picture = reader.frame(frame);
+        const std::vector<float> weights = measured_weights(plan, rows, frame, picture);
+        measured.sums.add(picture, weights);
+        measured.colours.add(picture, weights);
+    }
     write_file(record_file, json_text(Json{{"film_sha256", plan.render_sha256},
                                            {"video_sha256", media::sha256_of_file(video_file)},
                                            {"table_sha256", media::sha256_of_file(table_file)},
-                                           {"luminance", json_of(sums)},
+                                           {"luminance", json_of(measured.sums)},
+                                           {"colours", measured.colours.text()},
                                            {"run", portable_record(result.record)}},
                                       1) +
                                 "\n");
@@ -124,8 +137,7 @@ void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker) {
     outputs.commit();
 }
 
-std::optional<media::LuminanceSums> measured_luminance(const ClipPlan& plan,
-                                                       const fs::path& folder) {
+std::optional<MeasuredLuminance> measured_luminance(const ClipPlan& plan, const fs::path& folder) {
     const ReadingFormerOutput former;
     try {
         for (const char* below : kIntermediateFolders) {
@@ -133,12 +145,14 @@ std::optional<media::LuminanceSums> measured_luminance(const ClipPlan& plan,
             if (!fs::exists(file)) continue;
             const Json record = JsonCursor::read_file(file).json();
             if (record.at("film_sha256") == plan.render_sha256)
-                return sums_of(record.at("luminance"));
+                return MeasuredLuminance{sums_of(record.at("luminance")),
+                                         media::ColourSums::of_text(record.at("colours"))};
         }
         if (fs::exists(folder / clip_files(plan).sidecar)) {
-            const Json record = clip_record(plan, folder);
-            if (record.at("luminance").at("film_sha256") == plan.render_sha256)
-                return sums_of(record.at("luminance").at("before"));
+            const Json luminance = clip_record(plan, folder).at("luminance");
+            if (luminance.at("film_sha256") == plan.render_sha256)
+                return MeasuredLuminance{sums_of(luminance.at("before")),
+                                         media::ColourSums::of_text(luminance.at("colours"))};
         }
     } catch (const std::exception&) {
         return {};  // it belongs to another script

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
+import os
+
 from . import core
 
-REFRESH_S = 1 / 60
+REFRESH_S = 1 / float(os.environ.get("STAND_IN_HZ", "60"))
 
 
 class Window:
@@ -11,7 +13,7 @@ class Window:
         self.calls, self.drawn, self.seen = [], [], []
         self.frameIntervals, self.recordFrameIntervals, self.mouseVisible = [], False, True
 
-    def getActualFrameRate(self):
+    def getActualFrameRate(self, nIdentical=10, nMaxFrames=100, nWarmUpFrames=10, threshold=1):
         return 1 / REFRESH_S
 
     def getFutureFlipTime(self, clock):
@@ -36,7 +38,8 @@ class Stimulus:
     def __init__(self, window, **known):
         self.window = window
         for name in known:
-            if name not in ("image", "width", "height", "lineWidth", "fillColor", "pos", "text"):
+            if name not in ("image", "width", "height", "lineWidth", "fillColor", "pos", "text", "units",
+                            "interpolate"):
                 raise TypeError(name)
 
     def draw(self):

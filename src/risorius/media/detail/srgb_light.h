@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// Bytes of sRGB and linear light, IEC 61966-2-1.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace risorius::media::detail {
+
+/// Weights of red, green and blue in relative luminance, BT.709
+inline constexpr std::array kLuma{0.2126, 0.7152, 0.0722};
+
+/// Linear light of a byte, 0..1.
+double light_of_srgb(int byte);
+
+/// The byte of a linear light, which is clamped to 0..1.
+std::uint8_t srgb_of_light(double light);
+
+}  // namespace risorius::media::detail

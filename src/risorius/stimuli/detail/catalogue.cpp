@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/stimuli/detail/catalogue.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "risorius/core/json_text.h"
+
+namespace risorius::stimuli {
+
+namespace {
+
+/// The names of values of all clips, in the order of their first occurrence.
+std::vector<std::string> value_names(const std::vector<Json>& records) {
+    std::vector<std::string> out;
+    for (const Json& record : records)
+        for (const auto& [name, value] : record.at("values").items())
+            if (name != "set" && std::find(out.begin(), out.end(), name) == out.end())
+                out.push_back(name);
+    return out;
+}
+
+bool has_sound(const std::vector<ClipPlan>& clips) {
+    return std::any_of(clips.begin(), clips.end(),
+                       [](const ClipPlan& clip) { return clip.sound.has_value(); });
+}
+
+/// A column of the catalogue.
+struct Column {
+    std::string name;
+    Json description;
+    std::function<Json(std::size_t clip)> cell;
+};
+
+Json described(const char* text, const char* units = "") {
+    Json out{{"Description", text}};
+    if (*units) out["Units"] = units;
+    return out;
+}
+
+/// A measure as the catalogue has it: six decimals.
+Json rounded(double value) { return Json(std::round(1e6 * value) / 1e6); }
+
+/// The columns for what is seen to move.
+void add_motion(const std::vector<Json>& records, std::vector<Column>& columns) {
+    const auto at_time = [&](const char* key) {
+        return [&records, key](std::size_t i) {
+            const Json& frame = records[i].at("motion").at(key);
+            return frame.is_null()
+                       ? Json()
+                       : rounded(frame.get<double>() / records[i].at("fps").get<double>());
+        };
+    };
+    const auto measure = [&](const char* key) {
+        return [&records, key](std::size_t i) {
+            const Json& value = records[i].at("motion").at(key);
+            return value.is_number() ? rounded(value.get<double>()) : value;
+        };
+    };
+    columns.push_back({"seen_mm",
+                       described("Farthest way of a landmark of the face from where it is in the "
+                                 "first frame, without head movement, blinks and idle motion",
+                                 "mm"),
+                       measure("seen_mm")});
+    columns.push_back({"seen_landmark", described("Whose way that is"), measure("seen_landmark")});
+    columns.push_back(
+        {"seen_share",
+         described("seen_mm / the same of this expression on this head, settled at full intensity"),
+         [&records](std::size_t i) {
+             const Json& motion = records[i].at("motion");
+             const Json &seen = motion.at("seen_mm"), &full = motion.at("full_mm");
+             return seen.is_null() || full.is_null() || !(full.get<double>() > 0)
+                        ? Json()
+                        : rounded(seen.get<double>() / full.get<double>());
+         }});
+    columns.push_back(
+        {"full_mm", described("What seen_share is a share of", "mm"), measure("full_mm")});
+    columns.push_back({"seen_onset_s",
+                       described("Start of the first shown frame in which a landmark is farther "
+                                 "away than 0.3 mm, or than 5 % of seen_mm if that is less",
+                                 "s"),
+                       at_time("seen_onset_frame")});
+    columns.push_back({"seen_apex_s",
+                       described("Start of the first shown frame with 99 % of seen_mm", "s"),
+                       at_time("seen_apex_frame")});
+    columns.push_back({"seen_offset_s",
+                       described("Start of the first shown frame after the apex in which no "
+                                 "landmark is farther away than at the onset",
+                                 "s"),
+                       at_time("seen_offset_frame")});
+    columns.push_back({"velocity_peak_mm_s",
+                       described("Largest rise of the way from one frame to the next", "mm/s"),
+                       measure("velocity_peak_mm_s")});
+    columns.push_back(
+        {"pixel_onset_s",
+         described("Start of the first shown frame whose pixels differ from the first "
+                   "one, whatever the cause",
+                   "s"),
+         at_time("pixel_onset_frame")});
+    columns.push_back({"head_onset_s",
+                       described("Start of the first shown frame in which the head has moved by "
+                                 "0.3 mm",
+                                 "s"),
+                       at_time("head_onset_frame")});
+    columns.push_back(
+        {"blink_onset_s",
+         described("Start of the first shown frame in which a blink has closed a pair "
+                   "of lids below 80 % of their aperture in the first frame",
+                   "s"),
+         at_time("blink_onset_frame")});
+    columns.push_back({"gaze_onset_s",
+                       described("Start of the first shown frame in which an eye has turned by 1 "
+                                 "degree",
+                                 "s"),
+                       at_time("gaze_onset_frame")});
+    columns.push_back({"commanded_onset_s",
+                       described("When the script tells the first expression to begin", "s"),
+                       measure("commanded_onset_s")});
+    columns.push_back(
+        {"commanded_apex_s",
+         described("When the script tells the strongest expression to be complete", "s"),
+         measure("commanded_apex_s")});
+}
+
+std::vector<Column> columns_of(const BatchPlan& plan, const std::vector<Json>& records) {
+    const std::vector<ClipPlan>& clips = plan.clips;
+    const auto of_record = [&](const char* key) {
+        return [&records, key](std::size_t i) { return records[i].at(key); };
+    };
+    const auto of_control = [&](const char* key) {
+        return [&records, key](std::size_t i) {
+            return records[i].at("control").get<std::string>().empty() ? Json()
+                                                                       : records[i].at(key);
+        };
+    };
+    const auto same = [](const std::string& text) {
+        return [text](std::size_t) { return Json(text); };
+    };
+    std::vector<Column> out{
+        {"stimulus_id", described("Name of the clip, with the prefix of its files"),
+         [&records](std::size_t i) {
+             return Json("stim-" + records[i].at("stim_id").get<std::string>());
+         }},
+        {"type", described("Kind of the file"),
+         [&clips](std::size_t i) { return Json(clips[i].sound ? "audiovideo" : "video"); }},
+        {"filename", described("The file, in this folder"),
+         [&clips](std::size_t i) {
+             return Json(clip_files(clips[i]).video.filename().generic_string());
+         }},
+        {"license", described("Licence of the file"), same(plan.dataset.license)},
+        {"copyright", described("Who holds the rights"), same(plan.dataset.copyright)},
+        {"description", described("What it shows"),
+         [&records](std::size_t i) {
+             std::string text = "A synthetic face";
+             for (const auto& [name, value] : records[i].at("values").items())
+                 if (name != "set") text += ", " + name + " " + catalogue_cell(value);
+             const std::string control = records[i].at("control").get<std::string>();
+             return Json(text + (control.empty() ? "" : ", control " + control));
+         }},
+        {"present", described("Whether the file is in this data set"), same("true")},
+        {"set", described("Set of conditions of the design"), of_record("set")},
+        {"control", described("What differs from the clip it is a control of"),
+         of_control("control")},
+        {"control_of", described("stimulus_id of that clip"),
+         [&records](std::size_t i) {
+             return records[i].at("control").get<std::string>().empty()
+                        ? Json()
+                        : Json("stim-" + records[i].at("of").get<std::string>());
+         }},
+        {"frames", described("Number of frames"), of_record("frames")},
+        {"fps", described("Frames per second, constant", "Hz"), of_record("fps")},
+        {"duration_s", described("Frames over frame rate", "s"), of_record("duration_s")}};
+    add_motion(records, out);
+    out.push_back({"pictures_sha256",
+                   described("Of the RGBA bytes of all frames before they were encoded"),
+                   of_record("pictures_sha256")});
+    const auto of_sound = [&](const char* key) {
+        return [&records, key](std::size_t i) {
+            return records[i].contains("audio") ? records[i].at("audio").at(key) : Json();
+        };
+    };
+    if (has_sound(clips)) {
+        out.push_back({"loudness_lufs",
+                       described("Integrated loudness of the whole recording by EBU R 128", "LUFS"),
+                       of_sound("loudness_lufs")});
+        out.push_back({"true_peak_dbtp",
+                       described("Highest peak of the whole recording by EBU R 128", "dBTP"),
+                       of_sound("true_peak_dbtp")});
+    }
+    for (const std::string& name : value_names(records))
+        out.push_back({name, described("Parameter of the design, see code/design.json"),
+                       [&records, name](std::size_t i) {
+                           const Json& values = records[i].at("values");
+                           return values.contains(name) ? values.at(name) : Json();
+                       }});
+    return out;
+}
+
+}  // namespace
+
+std::string catalogue_cell(const Json& value) {
+    if (value.is_null()) return kMissingCell;
+    std::string text = value.is_string()   ? value.get<std::string>()
+                       : value.is_number() ? format_number(value.get<double>())
+                                           : json_text(value);
+    for (char& c : text)
+        if (c == '\t' || c == '\n' || c == '\r') c = ' ';
+    return text.empty() ? kMissingCell : text;
+}
+
+Catalogue catalogue_of(const BatchPlan& plan, const std::vector<Json>& records) {
+    Catalogue out{.table = {}, .columns = Json::object()};
+    const std::vector<Column> columns = columns_of(plan, records);
+    for (const Column& column : columns) {
+        out.table += (out.table.empty() ? "" : "\t") + column.name;
+        out.columns[column.name] = column.description;
+    }
+    out.table += "\n";
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        for (const Column& column : columns)
+            out.table += (&column == &columns.front() ? "" : "\t") + catalogue_cell(column.cell(i));
+        out.table += "\n";
+    }
+    return out;
+}
+
+}  // namespace risorius::stimuli

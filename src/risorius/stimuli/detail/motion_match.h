@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// Finds the intensity at which an expression is seen as a share of what the same expression shows at full intensity.
+///
+///   s(k)     farthest way of a landmark of the face, settled at intensity k (seen_motion.h)
+///   p(k)     the same for the course of the script, which is less when nothing is held
+///
+/// First s(k) / s(1) = share is solved by regula falsi with the Illinois rule, then p(k) / s(1) = share by secants in log p over log k.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "risorius/animate/render_inputs.h"
+#include "risorius/animate/render_session.h"
+#include "risorius/core/json_cursor.h"
+#include "risorius/core/progress_monitor.h"
+
+namespace risorius::stimuli {
+
+class MotionMatch {
+  public:
+    /// `quality`: that of the clips.
+    MotionMatch(std::string quality, animate::RenderInputs& inputs, ProgressMonitor monitor)
+        : quality_(std::move(quality)), inputs_(inputs), monitor_(std::move(monitor)) {}
+
+    /// Returns the intensity, to 1e-4. `script_at`: the script at an intensity; `folder`: where its relative paths start. Throws Error
+    /// naming `place` when the script has no expression, or when the share cannot be had.
+    double intensity_for(double share, const std::function<Json(double)>& script_at,
+                         const std::filesystem::path& folder, const std::string& place);
+
+  private:
+    double settled_mm(const Json& script, const std::filesystem::path& folder,
+                      const std::string& place);
+    double shown_mm(const Json& script, const std::filesystem::path& folder,
+                    const std::string& place);
+
+    std::string quality_;
+    animate::RenderInputs& inputs_;
+    ProgressMonitor monitor_;
+    animate::RenderSession session_;
+    std::map<std::string, double> known_;
+};
+
+}  // namespace risorius::stimuli

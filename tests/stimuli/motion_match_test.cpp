@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Steps of intensity that are equal as they are seen.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "message_of.h"
+#include "paths.h"
+#include "risorius/animate/frame_rows.h"
+#include "risorius/core/read_file.h"
+#include "risorius/stimuli/batch.h"
+#include "temporary_folder.h"
+
+namespace risorius::stimuli {
+namespace {
+
+Json steps_design(double hold_s) {
+    Json design = Json::parse(R"({"format": "risorius-design", "version": 1, "name": "Steps",
+        "clips": {"quality": "draft", "ending": "mkv"},
+        "match": {"motion": {"share": [0.25, 0.75], "of": "intensity"}},
+        "sets": [{"name": "steps", "clip": "${expression}_${seen_step}",
+            "factors": {"expression": ["happiness", "fear"]},
+            "script": {"format": "risorius-script", "version": 1, "fps": 20, "duration_s": 0.8,
+                "events": [{"expression": "${expression}", "intensity": "${intensity}",
+                    "start_s": 0.05, "onset_s": 0.2, "hold_s": 0, "offset_s": 0.2}],
+                "view": {"width_px": 32, "height_px": 32, "antialiasing": 1}}}]})");
+    design["sets"][0]["script"]["rig"] = RISORIUS_SOURCE_DIR "/rigs/adult/rig.json";
+    design["sets"][0]["script"]["events"][0]["hold_s"] = hold_s;
+    return design;
+}
+
+TEST(MotionMatch, MakesStepsThatAreSeenAsAskedFor) {
+    const TemporaryFolder folder;
+    for (const double hold_s : {0.05}) {
+        std::ofstream(folder / "design.json") << steps_design(hold_s).dump();
+        const std::filesystem::path out = folder / ("set" + std::to_string(hold_s));
+        EXPECT_TRUE(
+            make_batch({.design = folder / "design.json", .out = out, .workers = 2}).complete);
+        const animate::FrameRows rows =
+            animate::frame_rows(read_file(out / "stimuli/stimuli.tsv", {"a table", kMegabyte}));
+        ASSERT_EQ(rows.rows(), 4);
+        for (int r = 0; r < rows.rows(); ++r) {
+            EXPECT_NEAR(rows.number(r, rows.column("seen_share")),
+                        rows.number(r, rows.column("seen_step")), 0.02)
+                << rows.cells[static_cast<std::size_t>(r)][0] << " held for " << hold_s;
+            EXPECT_NE(rows.number(r, rows.column("intensity")),
+                      rows.number(r, rows.column("seen_step")));
+        }
+    }
+}
+
+TEST(MotionMatch, RefusesSharesThatTheTempoCannotReach) {
+    const TemporaryFolder folder;
+    Json design = steps_design(0);
+    design["match"]["motion"]["share"] = {1};
+    design["sets"][0]["script"]["events"][0]["onset_s"] = 0.06;
+    design["sets"][0]["script"]["events"][0]["offset_s"] = 0.06;
+    std::ofstream(folder / "design.json") << design.dump();
+    EXPECT_NE(message_of([&] {
+                  plan_batch(folder / "design.json");
+              }).find("expected a share of match/motion of at most 0."),
+              std::string::npos);
+    // And a script that does not use the parameter
+    design["sets"][0]["script"]["events"] = Json::array();
+    std::ofstream(folder / "design.json") << design.dump();
+    EXPECT_NE(message_of([&] {
+                  plan_batch(folder / "design.json");
+              }).find("expected a script whose expression or units follow the parameter"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace risorius::stimuli
