@@ -57,5 +57,38 @@ TEST_F(Speak, MistakesAreToldWithTheirPlace) {
     EXPECT_EQ(folder_.listing(), (std::set<std::string>{"a.xyz", "bad.ctm"}));
 }
 
+TEST_F(Speak, AVideoWithSpeechHasItsLabelsBesideIt) {
+    write("s.json",
+          R"({"format": "risorius-script", "version": 1, "rig": ")" +
+              (std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs/adult/rig.json").string() +
+              R"(", "duration_s": 1, "fps": 5,
+        "events": [{"say": {"phones": [["a", 0.2], ["p", 0.12], ["a", 0.2]]}, "start_s": 0.4}]})");
+    const ShellResult result =
+        run_shell("cd '" + folder_.path().string() + "' && '" +
+                  (std::filesystem::path(RISORIUS_BINARY_DIR) / "risorius").string() +
+                  "' render s.json --draft --size 64x64 --quiet -o v.mp4 2>&1");
+    ASSERT_EQ(result.code, 0) << result.output;
+    const std::string labels = bytes_of(folder_ / "v.mp4.speech.TextGrid");
+    EXPECT_NE(labels.find("xmax = 1\n"), std::string::npos);
+    EXPECT_NE(labels.find("name = \"visemes\""), std::string::npos);
+    EXPECT_NE(labels.find("xmin = 0.6\n"), std::string::npos) << labels;  // the p
+}
+
+TEST_F(Speak, AlignRefusesWhatItCannotWriteOrHear) {
+    const auto align = [&](const std::string& arguments) {
+        return run_shell("cd '" + folder_.path().string() + "' && '" +
+                         (std::filesystem::path(RISORIUS_BINARY_DIR) / "risorius").string() +
+                         "' align " + arguments + " 2>&1");
+    };
+    const ShellResult ending = align("anna.wav --text a -o anna.txt");
+    EXPECT_EQ(ending.code, 2);
+    EXPECT_NE(ending.output.find("expected a file that ends in .TextGrid"), std::string::npos)
+        << ending.output;
+    const ShellResult missing = align("anna.wav --text a -o anna.TextGrid");
+    EXPECT_EQ(missing.code, 2);
+    EXPECT_NE(missing.output.find("anna.wav"), std::string::npos) << missing.output;
+    EXPECT_TRUE(folder_.listing().empty());
+}
+
 }  // namespace
 }  // namespace risorius

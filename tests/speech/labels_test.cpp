@@ -175,6 +175,9 @@ TEST(Labels, WhatIsWrittenIsReadAgain) {
     }
     EXPECT_EQ(again.words[0].text, "mapu");
     EXPECT_EQ(parse_labels(ctm_text(u), "ctm", "f", kRate).tiers[0].labels.size(), 4u);
+    const LabelFile htk = parse_labels(htk_text(u), "lab", "f", kRate);
+    EXPECT_EQ(htk.tiers[0].labels.front().start, u.phones.front().start);
+    EXPECT_EQ(htk.tiers[0].labels.back().end, u.phones.back().end);
     EXPECT_EQ(webvtt_text(u), "WEBVTT\n\n00:00:00.400 --> 00:00:00.847\nmapu\n");
     EXPECT_EQ(parsed(rhubarb_text(u, standard_phones()), "rhubarb").substr(0, 40),
               "visemes 0-19200:X 19200-23218:A 23218-30");

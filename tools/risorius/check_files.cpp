@@ -81,9 +81,12 @@ void check_script(const JsonCursor& json, CheckResult& result) {
     request.script = result.file;
     request.script_in_memory = json;
     request.out = "check.mkv";  // nothing is written
-    animate::RenderInputs inputs(stop_is_asked);
+    // A check is quick: it does not simulate the mouths of a rig that has not spoken yet.
+    animate::RenderInputs inputs({.progress = {}, .stopped = stop_is_asked},
+                                 animate::RenderInputs::Poses::kOnlyKnown);
     const animate::RenderJob job = animate::plan_render_job(request, inputs);
     result.notes = job.script.notes;
+    result.notes.insert(result.notes.end(), job.speech.notes.begin(), job.speech.notes.end());
     note_late_events(job.script, result);
     note_idle_channels(job.script, result);
     const scene::RigFiles& files = job.rig->files;

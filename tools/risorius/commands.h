@@ -12,6 +12,7 @@ namespace risorius::cli {
 
 void add_render(CLI::App& app);
 void add_speak(CLI::App& app);
+void add_align(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_sheet(CLI::App& app);
 void add_fit(CLI::App& app);

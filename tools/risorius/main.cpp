@@ -133,6 +133,7 @@ int run(int argc, char** argv) {
     app.footer("risorius COMMAND --help explains a command and gives an example.");
     cli::add_render(app);
     cli::add_speak(app);
+    cli::add_align(app);
     cli::add_compare(app);
     cli::add_sheet(app);
     cli::add_fit(app);

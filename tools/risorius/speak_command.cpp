@@ -19,14 +19,13 @@
 #include "risorius/talk/voice.h"
 #include "tools/risorius/commands.h"
 #include "tools/risorius/render_options.h"
+#include "tools/risorius/speech_files.h"
 
 namespace risorius::cli {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr FileKind kText{"a text", kMegabyte};
 
 struct SpeakArguments {
     Common common;
@@ -39,70 +38,13 @@ struct SpeakArguments {
     int passes = 2;
 };
 
-/// "out/hello.utterance.json" and the like, for "out/hello.mp4".
-fs::path beside(const fs::path& out, const std::string& ending) {
-    fs::path base = out;
-    if (!base.has_filename()) base = base.parent_path();
-    return base.replace_extension().string() + ending;
-}
-
 /// TEXT is what to say, a file of text, or an utterance.
 void read_said(SpeakArguments& arguments) {
-    if (arguments.said.empty()) return;
     const fs::path file = arguments.said;
-    std::error_code ignored;
-    if (arguments.said.size() < 4000 && fs::is_regular_file(file, ignored)) {
-        if (file.extension() == ".json")
-            arguments.input.utterance = file;
-        else
-            arguments.input.voice.text = read_text(file, kText);
-        return;
-    }
-    arguments.input.voice.text = arguments.said;
-}
-
-bool ends_with(const fs::path& file, std::string_view ending) {
-    return file.string().ends_with(ending);
-}
-
-/// The text of an output that holds no pictures; empty for others.
-std::string text_output(const fs::path& out, const speech::Utterance& utterance,
-                        const speech::PhoneTable& table) {
-    if (ends_with(out, ".utterance.json")) return speech::utterance_text(utterance);
-    if (ends_with(out, ".TextGrid")) return speech::textgrid_text(utterance, table);
-    if (ends_with(out, ".ctm")) return speech::ctm_text(utterance);
-    if (ends_with(out, ".vtt")) return speech::webvtt_text(utterance);
-    if (ends_with(out, ".curves.tsv")) return talk::curves_text(utterance, table);
-    if (ends_with(out, ".tsv")) return speech::rhubarb_text(utterance, table);
-    return "";
-}
-
-/// "a" as seen from the folder of `from`.
-fs::path seen_from(const fs::path& from, const fs::path& a) {
-    return fs::absolute(a).lexically_relative(fs::current_path() / folder_of_output(from));
-}
-
-/// Writes the utterance, and the sound of a voice; the utterance names its sound. Returns its path.
-fs::path write_utterance(talk::SpokenResult& result, const fs::path& out) {
-    OutputSet outputs(folder_of_output(out), OutputSet::Then::kRunGoesOn);
-    if (!result.spoken.sound.empty() && result.sound_file.empty()) {
-        const fs::path wav = beside(out, ".wav");
-        media::write_mono_wav({result.spoken.utterance.rate_hz, result.spoken.sound},
-                              outputs.file(wav));
-        result.sound_file = wav;
-    }
-    if (!result.sound_file.empty())
-        result.spoken.utterance.sound = seen_from(out, result.sound_file);
-    const fs::path file = beside(out, ".utterance.json");
-    write_file(outputs.file(file), speech::utterance_text(result.spoken.utterance));
-    outputs.commit();
-    return file;
-}
-
-void write_one(const fs::path& file, const std::string& text) {
-    OutputSet outputs(folder_of_output(file), OutputSet::Then::kRunGoesOn);
-    write_file(outputs.file(file), text);
-    outputs.commit();
+    if (is_file_name(arguments.said) && file.extension() == ".json")
+        arguments.input.utterance = file;
+    else if (!arguments.said.empty())
+        arguments.input.voice.text = text_or_file(arguments.said);
 }
 
 bool same(const std::vector<speech::ClosureChange>& one,
@@ -142,7 +84,7 @@ void render_speech(SpeakArguments& arguments, talk::SpokenResult& result,
     else
         options.rig = seen_from(out, data_folder() / "rigs/adult/rig.json");
     Json script = talk::speak_script(result.spoken.utterance, options);
-    const auto save = [&] { write_one(script_file, json_text(script, 1) + "\n"); };
+    const auto save = [&] { write_text(script_file, json_text(script, 1) + "\n"); };
     save();
     ProgressBar bar(arguments.common);
     const scene::RigFiles files =
@@ -170,8 +112,8 @@ void render_speech(SpeakArguments& arguments, talk::SpokenResult& result,
         script = talk::speak_script(result.spoken.utterance, options);
     }
     const talk::CheckedSpeech& checked = best;
-    write_one(beside(out, ".speech.tsv"),
-              talk::speech_table(checked.track, checked.utterances, table));
+    write_text(beside(out, ".speech.tsv"),
+               talk::speech_table(checked.track, checked.utterances, table));
     if (!arguments.common.quiet && checked.total > 0)
         std::printf("closures of the lips: %d, reached %d, held %d\n", checked.total,
                     checked.reached, checked.held);
@@ -189,11 +131,8 @@ void run_speak(SpeakArguments& arguments) {
     const fs::path out = arguments.render.out;
     const speech::PhoneTable table = speech::PhoneTable::standard();
     talk::SpokenResult result = talk::read_spoken(arguments.input, table);
-    if (ends_with(out, ".utterance.json"))
-        write_utterance(result, fs::path(out.string().substr(0, out.string().size() - 15) + ".x"));
-    else if (const std::string text = text_output(out, result.spoken.utterance, table);
-             !text.empty())
-        write_one(out, text);
+    if (is_speech_text(out))
+        write_speech_text(result, out, table);
     else
         render_speech(arguments, result, table);
     if (arguments.common.quiet) return;
@@ -206,19 +145,19 @@ void run_speak(SpeakArguments& arguments) {
 }  // namespace
 
 void add_speak(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("speak", "Let a face say a text, or what the labels of a recording say");
+    CLI::App* command = app.add_subcommand("speak", "Let a face say a text or a recording");
     auto arguments = std::make_shared<SpeakArguments>();
     talk::SpokenInput& input = arguments->input;
     command->add_option("TEXT", arguments->said,
                         "What to say: a text, a text file, or a file of format risorius-utterance");
     command
-        ->add_option("-o,--out", arguments->render.out,
-                     "The file to write, by its ending. .mp4, .mov, .mkv, .webm, or a folder that "
-                     "ends in /: the talking face, with its script, utterance and sound beside "
-                     "it; .json: the script alone; .utterance.json: phones in samples, with "
-                     "the sound beside it; .TextGrid, .ctm, .vtt: labels; .tsv: mouth shapes of "
-                     "Rhubarb; .curves.tsv: curves of jaw, lips and tongue")
+        ->add_option(
+            "-o,--out", arguments->render.out,
+            "The file to write, by its ending. .mp4, .mov, .mkv, .webm, or a folder that "
+            "ends in /: the talking face, with its script, utterance and sound beside "
+            "it; .json: the script alone; .utterance.json: phones in samples, with "
+            "the sound beside it; .TextGrid, .ctm, .lab, .vtt: labels; .tsv: mouth shapes of "
+            "Rhubarb; .curves.tsv: curves of jaw, lips and tongue")
         ->required();
     command
         ->add_option("--voice", input.voice.language,
@@ -240,7 +179,8 @@ void add_speak(CLI::App& app) {
                         "Tier of the labels with the phones. Default: phones, phone, MAU, visemes");
     command->add_option("--symbols", input.label_options.symbols,
                         "How the labels spell phones: ipa, espeak, arpabet, xsampa, finnish");
-    command->add_option("--audio", input.audio, "The recording of the labels: WAV or FLAC");
+    command->add_option("--audio", input.audio,
+                        "The recording of the text or of the labels: WAV or FLAC");
     command->add_option("--rig", arguments->render.rig, "The rig. Default: the adult");
     command->add_option("--script", arguments->script,
                         "A script to add the speech to, with its expressions, view and rig");
@@ -273,6 +213,7 @@ void add_speak(CLI::App& app) {
     command->footer(
         "Example:\n  risorius speak \"Good morning.\" --voice en-us -o out/morning.mp4\n"
         "  risorius speak \"Good morning.\" --voice en-us -o out/morning.TextGrid\n"
+        "  risorius speak \"Good morning.\" --voice en-us --audio anna.wav -o out/anna.mp4\n"
         "  risorius speak --labels anna.TextGrid --audio anna.wav -o out/anna.utterance.json");
     command->callback([arguments] { run_speak(*arguments); });
 }

@@ -15,6 +15,7 @@
 #include "risorius/report/atomic_folder.h"
 #include "risorius/report/output_paths.h"
 #include "risorius/report/stopwatch.h"
+#include "risorius/talk/script_labels.h"
 
 namespace risorius::animate {
 
@@ -54,6 +55,12 @@ class Output {
     Image still_;
 };
 
+/// What the video says, as a TextGrid; empty when it says nothing, or when its time is not that of the script.
+std::string labels_of(const RenderJob& job) {
+    if (job.still || job.turntable || !job.times_s.empty()) return "";
+    return talk::script_textgrid(job.speech.utterances, job.script.header.duration_s);
+}
+
 }  // namespace
 
 RunRecord animate(const RenderRequest& request, const ProgressMonitor& monitor) {
@@ -64,16 +71,19 @@ RunRecord animate(const RenderRequest& request, const ProgressMonitor& monitor) 
             option_name("still_s") +
                 " with it, the name of a video, or of a folder of PNG frames, which ends in /",
             "\".png\" alone");
-    RenderInputs inputs(monitor.stopped);
+    RenderInputs inputs(monitor);
     RenderJob job = plan_render_job(request, inputs);
     const fs::path record_file = report::output_path(job.out, ".json"),
-                   table_file = report::output_path(job.out, ".frames.tsv");
+                   table_file = report::output_path(job.out, ".frames.tsv"),
+                   labels_file = report::output_path(job.out, ".speech.TextGrid");
     report::check_record(record_file);
     report::check_table(table_file);
     if (request.audio) check_file(*request.audio, kSound);  // so that it is known as an input
     OutputSet outputs(folder_of_output(job.out));
     Output output(job, outputs);
     const fs::path record_text = outputs.file(record_file), table_text = outputs.file(table_file);
+    const std::string labels = labels_of(job);
+    const fs::path labels_text = labels.empty() ? fs::path() : outputs.file(labels_file);
     const fs::path passes = job.passes_folder;
     if (!job.passes.empty()) {
         report::check_results_folder(passes);
@@ -87,6 +97,7 @@ RunRecord animate(const RenderRequest& request, const ProgressMonitor& monitor) 
 
     // All files appear together, or none.
     write_file(table_text, result.table);
+    if (!labels.empty()) write_file(labels_text, labels);
     const report::Stopwatch closing;
     RunRecord& record = result.record;
     record.out_sha256 = output.finish();

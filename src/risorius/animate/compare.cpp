@@ -53,7 +53,7 @@ void write_caption(const std::string& text, Image& image) {
 Json compare(const RenderRequest& left_request, const RenderRequest& right_request,
              const ProgressMonitor& monitor) {
     // Plan both sides; they are equal except for what is compared.
-    RenderInputs inputs(monitor.stopped);
+    RenderInputs inputs(monitor);
     const RenderJob left = plan_render_job(left_request, inputs);
     RenderRequest alike = right_request;
     alike.out = left.out;

@@ -274,16 +274,17 @@ void plan_rig_and_script(const RenderRequest& request, const JsonCursor& script,
         for (const fs::path& recording : job.script.recordings)
             job.recordings.push_back(sums.of(recording));
     }
-    job.speech = talk::plan_speech(job.script.says, job.script.header, job.rig->files);
+    job.speech =
+        talk::plan_speech(job.script.says, job.script.header, job.rig->files, inputs.mouth_poses());
     talk::add_to_script(job.speech, job.script);
     for (const fs::path& file : job.speech.files)
         job.recordings.push_back({file, media::sha256_of_file(file)});
     if (request.against) {
         job.reference = track::read_script(inputs.script(*request.against)->json, channels,
                                            rig.facs, rig.expressions);
-        talk::add_to_script(
-            talk::plan_speech(job.reference->says, job.reference->header, job.rig->files),
-            *job.reference);
+        talk::add_to_script(talk::plan_speech(job.reference->says, job.reference->header,
+                                              job.rig->files, inputs.mouth_poses()),
+                            *job.reference);
     }
     if (request.shapes) job.shapes = {*request.shapes, media::sha256_of_file(*request.shapes)};
 }

@@ -32,7 +32,7 @@ std::shared_ptr<const RigInput> RenderInputs::rig(const fs::path& file) {
     if (!known) {
         auto read = std::make_shared<RigInput>();
         ReadChecksums sums;
-        read->files = scene::read_rig_files(file, stopped_);
+        read->files = scene::read_rig_files(file, monitor_.stopped);
         read->rig = sums.of(read->files.file);
         read->mesh = sums.of(read->files.rig.mesh_file);
         for (const fs::path& table : read->files.rig.table_files)
@@ -40,6 +40,14 @@ std::shared_ptr<const RigInput> RenderInputs::rig(const fs::path& file) {
         known = std::move(read);
     }
     return known;
+}
+
+talk::MouthPoses RenderInputs::mouth_poses() const {
+    return {.report =
+                [this](double fraction) {
+                    monitor_.report(fraction, "simulating mouths of this rig, once");
+                },
+            .may_simulate = poses_ == Poses::kSimulated};
 }
 
 }  // namespace risorius::animate

@@ -14,7 +14,9 @@
 
 #include "risorius/animate/detail/run_record.h"
 #include "risorius/core/json_cursor.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/scene/rig_files.h"
+#include "risorius/talk/say_event.h"
 
 namespace risorius::animate {
 
@@ -35,15 +37,25 @@ struct RigInput {
 class RenderInputs {
   public:
     /// `stopped`: returns true when reading should stop; then Interrupted is thrown.
-    explicit RenderInputs(std::function<bool()> stopped = {}) : stopped_(std::move(stopped)) {}
+    explicit RenderInputs(std::function<bool()> stopped = {}) {
+        monitor_.stopped = std::move(stopped);
+    }
+    /// Reports progress to `monitor`, too. `poses`: whether the mouths of a rig that speaks may be simulated, which takes minutes.
+    enum class Poses { kSimulated, kOnlyKnown };
+    explicit RenderInputs(ProgressMonitor monitor, Poses poses = Poses::kSimulated)
+        : monitor_(std::move(monitor)), poses_(poses) {}
 
     /// Throws Error when the file cannot be read or is not JSON.
     std::shared_ptr<const ScriptInput> script(const std::filesystem::path& file);
     /// Throws Error when the rig or its mesh cannot be used.
     std::shared_ptr<const RigInput> rig(const std::filesystem::path& file);
 
+    /// How to get the mouths of a rig. It refers to this object.
+    talk::MouthPoses mouth_poses() const;
+
   private:
-    std::function<bool()> stopped_;
+    ProgressMonitor monitor_;
+    Poses poses_ = Poses::kSimulated;
     std::mutex mutex_;
     std::map<std::filesystem::path, std::shared_ptr<const ScriptInput>> scripts_;
     std::map<std::filesystem::path, std::shared_ptr<const RigInput>> rigs_;

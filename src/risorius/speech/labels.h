@@ -65,6 +65,7 @@ Utterance utterance_of_labels(const LabelFile& labels, const LabelOptions& optio
 /// Writes tiers. Times have as many digits as are needed to read the same samples again.
 std::string textgrid_text(const Utterance& utterance, const PhoneTable& table);
 std::string ctm_text(const Utterance& utterance);     ///< phones, channel 1
+std::string htk_text(const Utterance& utterance);     ///< phones, in units of 100 ns
 std::string webvtt_text(const Utterance& utterance);  ///< words
 std::string rhubarb_text(const Utterance& utterance, const PhoneTable& table);  ///< mouth shapes
 

@@ -20,8 +20,8 @@ constexpr double kLongRatio =
     1.9;  // long to short, Finnish; about 2 in most languages with quantity
 
 const std::set<std::string, std::less<>> kSilences = {
-    "",  "_",  "sil",   "SIL",  "sp",    "SP",   "spn", "SPN", "pau",   "PAU",
-    "#", "h#", "<eps>", "<p:>", "<sil>", "ssil", "..",  "...", "noise", "<unk>"};
+    "",   "_",  "sil",   "SIL",  "sp",    "SP",   "spn", "SPN", "pau",   "PAU",  "#",
+    "##", "h#", "<eps>", "<p:>", "<sil>", "ssil", "..",  "...", "noise", "<unk>"};
 
 constexpr std::string_view kLong = "ː", kHalfLong = "ˑ", kPrimary = "ˈ", kSecondary = "ˌ";
 constexpr std::string_view kTies[] = {"͡", "͜"};

@@ -2,6 +2,7 @@
 #include "risorius/talk/rig_voice_file.h"
 
 #include <cstdlib>
+#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
@@ -34,18 +35,20 @@ std::string hash_of(const scene::RigFiles& files) {
     return hash.finish();
 }
 
-fs::path cache_folder() {
+/// Empty when there is no place for it.
+fs::path cache_file(const std::string& hash) {
+    const std::string name = hash + ".json";
     const char* set = std::getenv("XDG_CACHE_HOME");
-    if (set && *set) return fs::path(set) / "risorius/voices";
+    if (set && *set) return fs::path(set) / "risorius/voices" / name;
     const char* home = std::getenv("HOME");
-    return home && *home ? fs::path(home) / ".cache/risorius/voices" : fs::path();
+    return home && *home ? fs::path(home) / ".cache/risorius/voices" / name : fs::path();
 }
 
 /// The poses in a file, when it is there and was made of this rig.
 std::optional<RigVoice> read_matching(const fs::path& file, const std::string& hash,
                                       const std::vector<std::string>& columns) {
     std::error_code ignored;
-    if (!fs::is_regular_file(file, ignored)) return std::nullopt;
+    if (file.empty() || !fs::is_regular_file(file, ignored)) return std::nullopt;
     const JsonCursor json = JsonCursor::read_file(file);
     if (!json.has("hash") || json.at("hash").string() != hash) return std::nullopt;
     return RigVoice::read(json, columns);
@@ -79,17 +82,24 @@ fs::path voice_file_of(const fs::path& rig_file) {
     return fs::path(rig_file).replace_extension(".voice.json");
 }
 
-RigVoice voice_of_rig(const scene::RigFiles& files, const std::function<void(double)>& report) {
+std::optional<RigVoice> known_voice_of_rig(const scene::RigFiles& files) {
     const std::string hash = hash_of(files);
     const std::vector<std::string> columns = files.rig.channels().column_names();
-    if (auto known = read_matching(voice_file_of(files.file), hash, columns)) return *known;
-    const fs::path folder = cache_folder();
-    if (!folder.empty())
-        if (auto known = read_matching(folder / (hash + ".json"), hash, columns)) return *known;
+    if (auto known = read_matching(voice_file_of(files.file), hash, columns)) return known;
+    return read_matching(cache_file(hash), hash, columns);
+}
+
+RigVoice voice_of_rig(const scene::RigFiles& files, const std::function<void(double)>& report) {
+    // Threads that want the same mouths wait for the first of them, and find its file.
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
+    if (auto known = known_voice_of_rig(files)) return *known;
     RigVoice voice = simulate(files, report);
-    if (folder.empty()) return voice;
+    const std::string hash = hash_of(files);
+    const fs::path file = cache_file(hash);
+    if (file.empty()) return voice;
     try {
-        write(voice, hash, folder / (hash + ".json"));
+        write(voice, hash, file);
     } catch (const std::exception&) {
         // A cache that cannot be written costs time only.
     }

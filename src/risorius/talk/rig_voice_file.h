@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "risorius/scene/rig_files.h"
 #include "risorius/talk/detail/rig_voice.h"
@@ -18,6 +19,9 @@ std::filesystem::path voice_file_of(const std::filesystem::path& rig_file);
 /// poses are simulated.
 RigVoice voice_of_rig(const scene::RigFiles& files,
                       const std::function<void(double fraction)>& report = {});
+
+/// The same, but without a simulation: none when there is no file of this rig.
+std::optional<RigVoice> known_voice_of_rig(const scene::RigFiles& files);
 
 /// Simulates the poses and writes the file beside the rig. Returns its path. Throws RunError when it cannot be written.
 std::filesystem::path write_voice_of_rig(const scene::RigFiles& files,

@@ -93,6 +93,11 @@ double first_movement_s(const speech::Utterance& utterance) {
     return 0;
 }
 
+std::string note_on_unknown_mouths(const scene::RigFiles& files) {
+    return "the mouths of " + files.file.string() +
+           " are not simulated yet; the first run does it, once, which takes some minutes";
+}
+
 }  // namespace
 
 SayEvent read_say(const JsonCursor& event, double duration_s) {
@@ -142,7 +147,7 @@ void add_to_script(const PlannedSpeech& speech, track::ScriptDescription& script
 }
 
 PlannedSpeech plan_speech(const std::vector<JsonCursor>& says, const track::ScriptHeader& header,
-                          const scene::RigFiles& files) {
+                          const scene::RigFiles& files, const MouthPoses& poses) {
     PlannedSpeech out;
     if (says.empty()) return out;
     const speech::PhoneTable table = speech::PhoneTable::standard();
@@ -163,7 +168,11 @@ PlannedSpeech plan_speech(const std::vector<JsonCursor>& says, const track::Scri
                     "a time from " +
                     format_number(std::ceil(1000 * (event.start_s - begins_s)) / 1000) +
                     " s on, as the face moves before the first sound");
-            if (!voice) voice = voice_of_rig(files);
+            if (!voice && poses.may_simulate) voice = voice_of_rig(files, poses.report);
+            if (!voice) voice = known_voice_of_rig(files);
+            if (!voice && out.notes.empty()) out.notes.push_back(note_on_unknown_mouths(files));
+        }
+        if (event.face && voice) {
             speech::ArticulationTargets changed = targets;
             speech::change_closures(event.adjust, changed);
             out.sources.push_back(

@@ -3,6 +3,7 @@
 /// The events "say" of a script: what is said, when, how, and with which sound.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,12 +52,20 @@ struct PlannedSpeech {
     std::int64_t sound_offset_samples = 0;
     std::shared_ptr<void> keeps;
     std::vector<std::filesystem::path> files;  ///< that were read
+    std::vector<std::string> notes;            ///< what a person should know
+};
+
+/// How plan_speech() gets the mouths of a rig, which take minutes to simulate when they are not known yet.
+struct MouthPoses {
+    std::function<void(double fraction)> report{};  ///< of their simulation
+    /// false: a script is only checked. Faces whose mouths are not known do not move, and a note says so.
+    bool may_simulate = true;
 };
 
 /// Reads the events and plans the mouth. Throws Error when an event begins too early for the face to move before it, or when two
 /// events have a sound.
 PlannedSpeech plan_speech(const std::vector<JsonCursor>& says, const track::ScriptHeader& header,
-                          const scene::RigFiles& files);
+                          const scene::RigFiles& files, const MouthPoses& poses = {});
 
 /// Adds what speech asks of the face to a script.
 void add_to_script(const PlannedSpeech& speech, track::ScriptDescription& script);

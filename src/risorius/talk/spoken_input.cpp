@@ -8,6 +8,7 @@
 #include "risorius/speech/landmarks.h"
 #include "risorius/speech/trajectory.h"
 #include "risorius/speech/windows.h"
+#include "risorius/talk/recording.h"
 
 namespace risorius::talk {
 
@@ -49,6 +50,15 @@ SpokenResult of_utterance(const SpokenInput& input, const speech::PhoneTable& ta
     return out;
 }
 
+/// A recording of the text of the voice.
+SpokenResult of_recording(const SpokenInput& input, const speech::PhoneTable& table) {
+    AlignedRecording aligned = align_recording(input.audio, input.voice, table);
+    SpokenResult out;
+    out.spoken = {std::move(aligned.alignment.utterance), std::move(aligned.sound), 0};
+    out.spoken.utterance.sound = out.sound_file = input.audio;
+    return out;
+}
+
 }  // namespace
 
 SpokenResult read_spoken(const SpokenInput& input, const speech::PhoneTable& table) {
@@ -59,6 +69,7 @@ SpokenResult read_spoken(const SpokenInput& input, const speech::PhoneTable& tab
                     kinds == 0 ? "none" : "several");
     if (!input.labels.empty()) return of_labels(input, table);
     if (!input.utterance.empty()) return of_utterance(input, table);
+    if (!input.audio.empty()) return of_recording(input, table);
     return {speak(input.voice, table), {}};
 }
 

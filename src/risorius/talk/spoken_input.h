@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What a face is to say: a text for a voice, a stored utterance, or labels with a recording.
+/// What a face is to say: a text for a voice, a recording with its text, a stored utterance, or labels with a recording.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ struct SpokenInput {
     std::filesystem::path labels;
     std::string label_format;  ///< empty: found by the file
     speech::LabelOptions label_options;
-    /// The recording of the labels; with an utterance, instead of the sound that it names. May be empty.
+    /// The recording of the labels, or of the text; with an utterance, instead of the sound that it names. May be empty.
     std::filesystem::path audio;
 };
 

@@ -32,6 +32,7 @@ struct VoiceProgram {
     VoiceSymbols symbols;
     speech::StopMark stops = speech::StopMark::kBurst;
     double words_per_minute = 150;
+    double late_s = 0;
 };
 
 /// "fi" of "fi-FI"
@@ -45,7 +46,7 @@ std::vector<VoiceProgram> voices_for(const std::string& name, const std::string&
     std::string listed;
     for (const JsonCursor& voice : json.at("voices").items()) {
         voice.allow_keys({"name", "program", "symbols", "stops", "needs", "words_per_minute",
-                          "replace", "languages"});
+                          "replace", "languages", "late_ms"});
         VoiceProgram one;
         one.name = voice.at("name").string();
         listed += " " + in_quotes(one.name);
@@ -64,6 +65,7 @@ std::vector<VoiceProgram> voices_for(const std::string& name, const std::string&
         one.stops = voice.at("stops").one_of({"burst", "closure"}) == "burst"
                         ? speech::StopMark::kBurst
                         : speech::StopMark::kClosure;
+        if (const auto late = voice.find("late_ms")) one.late_s = 1e-3 * late->number({0, 50});
         const JsonCursor rates = voice.at("words_per_minute");
         for (const std::string& key : {std::string(), base_of(language), language})
             if (const auto rate = rates.find(key)) one.words_per_minute = rate->number({20, 450});
@@ -167,6 +169,7 @@ Spoken speak(const VoiceRequest& request, const speech::PhoneTable& table) {
     snap(out.utterance.words, out.utterance.phones);
     snap(out.utterance.sentences, out.utterance.phones);
     out.sound = sound.samples;
+    out.late_s = voice.late_s;
     return out;
 }
 

@@ -26,6 +26,8 @@ struct VoiceRequest {
 struct Spoken {
     speech::Utterance utterance;
     std::vector<float> sound;  ///< one channel at the utterance's rate
+    /// How much later the voice marks borders between voiced sounds than people do, s, see speech::SaidByVoice
+    double late_s = 0;
 };
 
 /// Without a name of a program, voices that are not installed are passed over. Throws Error for a request that the program refuses and when the program is not installed; the message names its package.

@@ -150,4 +150,15 @@ LabelFile parse_seg(const LabelText& file) {
     return {"seg", {std::move(tier)}, 0};
 }
 
+std::string htk_text(const Utterance& utterance) {
+    std::string out;
+    const auto time = [&](std::int64_t sample) {
+        return std::to_string(std::llround(utterance.seconds(sample) * 1e7));
+    };
+    for (const Phone& phone : utterance.phones)
+        out += time(phone.start) + " " + time(phone.end) + " " +
+               (phone.is_pause() ? "sil" : phone.text()) + "\n";
+    return out;
+}
+
 }  // namespace risorius::speech

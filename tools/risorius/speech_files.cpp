@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "tools/risorius/speech_files.h"
+
+#include <array>
+
+#include "risorius/core/output_set.h"
+#include "risorius/core/read_file.h"
+#include "risorius/core/text_lines.h"
+#include "risorius/media/mono_sound.h"
+#include "risorius/speech/labels.h"
+
+namespace risorius::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr FileKind kText{"a text", kMegabyte};
+constexpr std::size_t kLongestName = 4000;
+constexpr std::string_view kUtterance = ".utterance.json";
+constexpr std::array<std::string_view, 7> kEndings{kUtterance, ".TextGrid",   ".ctm", ".lab",
+                                                   ".vtt",     ".curves.tsv", ".tsv"};
+
+std::string text_of(std::string_view ending, const speech::Utterance& utterance,
+                    const speech::PhoneTable& table) {
+    if (ending == ".TextGrid") return speech::textgrid_text(utterance, table);
+    if (ending == ".ctm") return speech::ctm_text(utterance);
+    if (ending == ".lab") return speech::htk_text(utterance);
+    if (ending == ".vtt") return speech::webvtt_text(utterance);
+    if (ending == ".curves.tsv") return talk::curves_text(utterance, table);
+    return speech::rhubarb_text(utterance, table);
+}
+
+}  // namespace
+
+bool is_file_name(const std::string& text) {
+    std::error_code ignored;
+    return text.size() < kLongestName && fs::is_regular_file(text, ignored);
+}
+
+std::string text_or_file(const std::string& text) {
+    return is_file_name(text) ? read_text(text, kText) : text;
+}
+
+fs::path beside(const fs::path& out, const std::string& ending) {
+    fs::path base = out;
+    if (!base.has_filename()) base = base.parent_path();
+    return base.replace_extension().string() + ending;
+}
+
+fs::path seen_from(const fs::path& from, const fs::path& a) {
+    return fs::absolute(a).lexically_relative(fs::current_path() / folder_of_output(from));
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+    OutputSet outputs(folder_of_output(file), OutputSet::Then::kRunGoesOn);
+    write_file(outputs.file(file), text);
+    outputs.commit();
+}
+
+fs::path write_utterance(talk::SpokenResult& result, const fs::path& out) {
+    OutputSet outputs(folder_of_output(out), OutputSet::Then::kRunGoesOn);
+    if (!result.spoken.sound.empty() && result.sound_file.empty()) {
+        const fs::path wav = beside(out, ".wav");
+        media::write_mono_wav({result.spoken.utterance.rate_hz, result.spoken.sound},
+                              outputs.file(wav));
+        result.sound_file = wav;
+    }
+    if (!result.sound_file.empty())
+        result.spoken.utterance.sound = seen_from(out, result.sound_file);
+    const fs::path file = beside(out, std::string(kUtterance));
+    write_file(outputs.file(file), speech::utterance_text(result.spoken.utterance));
+    outputs.commit();
+    return file;
+}
+
+bool is_speech_text(const fs::path& out) {
+    for (const std::string_view ending : kEndings)
+        if (out.string().ends_with(ending)) return true;
+    return false;
+}
+
+void write_speech_text(talk::SpokenResult& result, const fs::path& out,
+                       const speech::PhoneTable& table) {
+    const std::string name = out.string();
+    if (name.ends_with(kUtterance)) {
+        write_utterance(result, fs::path(name.substr(0, name.size() - kUtterance.size()) + ".x"));
+        return;
+    }
+    for (const std::string_view ending : kEndings)
+        if (name.ends_with(ending))
+            return write_text(out, text_of(ending, result.spoken.utterance, table));
+}
+
+}  // namespace risorius::cli
