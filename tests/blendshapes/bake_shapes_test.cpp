@@ -186,6 +186,12 @@ TEST_F(BakedShapes, AreTheSameForAnyNumberOfThreads) {
     EXPECT_TRUE(fs::exists(alone.out / "shapes.glb"));
     EXPECT_FALSE(fs::exists(alone.out / "obj"));
     EXPECT_FALSE(fs::exists(alone.out / "shapes.f32"));
+    // It has no correctives, and is read without them.
+    const scene::RigFiles files = scene::read_rig_files(kAdult);
+    const ShapesOfFile read = read_shapes_of_file(
+        alone.out / "shapes.glb", files, rig::place_head(files.rig, files.mesh, files.place()));
+    EXPECT_EQ(read.goals.size(), 2u);
+    EXPECT_TRUE(read.rig.correctives.empty());
 }
 
 TEST_F(BakedShapes, AreWhatTheFilesHold) {
