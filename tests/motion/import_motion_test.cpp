@@ -155,11 +155,12 @@ TEST_F(ImportMotion, SmoothingTakesNoiseAwayWithoutDelay) {
         EXPECT_NEAR(at("mouthSmileLeft", f / 60.0), 0.3 + 0.2 * bump(f / 60.0, 0.5, 1.5), 0.004);
 }
 
-// Muscles that follow excitation would be late by about 40 ms.
+// Muscles that follow excitation would be late by about 40 ms, and brows of dynamic tissue by 50 ms.
 TEST_F(ImportMotion, LipsAndBrowsArriveWithinAFrameOfTheRecording) {
+    constexpr double kFps = 30;
     std::string frames;
-    for (int f = 0; f <= 60; ++f) {
-        const double t_s = f / 60.0;
+    for (int f = 0; f <= 30; ++f) {
+        const double t_s = f / kFps;
         frames +=
             (f > 0 ? ",{\"t\":" : "{\"t\":") + number_text(t_s, 5) +
             ",\"blendShapes\":{\"mouthSmileLeft\":" + number_text(0.8 * bump(t_s, 0, 0.6), 5) +
@@ -168,31 +169,31 @@ TEST_F(ImportMotion, LipsAndBrowsArriveWithinAFrameOfTheRecording) {
     import(webcam(frames));
     const scene::RigFiles files = scene::read_rig_files(kRig);
     const track::ChannelTable channels = files.rig.channels();
-    const track::Timeline timeline(track::read_script(folder_ / "script.json", channels,
-                                                      files.rig.facs, files.rig.expressions),
-                                   channels);
+    const track::ScriptDescription script = track::read_script(
+        folder_ / "script.json", channels, files.rig.facs, files.rig.expressions);
+    const track::Timeline timeline(script, channels);
     face::Face face(files.rig, files.mesh, face::quality_named("preview"), files.place());
+    face.move(script.header.motion);
     const auto drive = [&](double t_s) { return timeline.at(t_s); };
     face.start(drive);
     const scene::LandmarkPoints points(face.head(), files.rig);
     struct Peak {
         const char* landmark;
-        double expected_s, most_m = 0, at_s = 0;
-    } peaks[] = {{"ch_l", 0.3}, {"bm_l", 0.6}};
-    for (int f = 0; f <= 60; ++f) {
-        const Points vertices = face.pose_at(f / 60.0, drive).vertices;
-        for (Peak& peak : peaks) {
+        int frame;
+    };
+    for (const Peak& peak : {Peak{"ch_l", 9}, Peak{"bm_l", 18}}) {
+        double most_m = 0;
+        int at = 0;
+        for (int f = peak.frame - 3; f <= peak.frame + 3; ++f) {
+            const Points vertices = face.pose_at(f / kFps, drive).vertices;
             const double moved = (points.at(peak.landmark, vertices) -
                                   points.at(peak.landmark, face.head().vertices))
                                      .norm();
-            if (moved <= peak.most_m) continue;
-            peak.most_m = moved;
-            peak.at_s = f / 60.0;
+            if (moved > most_m) at = f;
+            most_m = std::max(most_m, moved);
         }
-    }
-    for (const Peak& peak : peaks) {
-        EXPECT_GT(peak.most_m, 2e-3) << peak.landmark;
-        EXPECT_NEAR(peak.at_s, peak.expected_s, 1 / 60.0 + 1e-9) << peak.landmark;
+        EXPECT_GT(most_m, 2e-3) << peak.landmark;
+        EXPECT_LE(std::abs(at - peak.frame), 1) << peak.landmark;
     }
 }
 

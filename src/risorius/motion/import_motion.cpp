@@ -170,6 +170,7 @@ ImportReport import_motion(const ImportOptions& options) {
         throw Error(options.file.string(), "motion of at most an hour",
                     format_number(std::round(report.duration_s)) + " s");
     Json channels = channels_of(motion, rig, options.tolerance, report);
+    const char* how = options.motion == track::Motion::kDynamic ? "dynamic" : "quasi_static";
     const Json script{
         {"format", "risorius-script"},
         {"version", 1},
@@ -179,6 +180,7 @@ ImportReport import_motion(const ImportOptions& options) {
                     .generic_string()},
         {"fps", fps},
         {"duration_s", rounded(report.duration_s, 1e-6)},
+        {"motion", how},
         {"channels", std::move(channels)}};
     write_file(options.out, json_text(script, 1) + "\n");
     return report;

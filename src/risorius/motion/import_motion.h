@@ -12,6 +12,7 @@
 
 #include "risorius/core/json_cursor.h"
 #include "risorius/motion/detail/recorded_motion.h"
+#include "risorius/track/motion.h"
 
 namespace risorius::motion {
 
@@ -30,6 +31,8 @@ struct ImportOptions {
     double smooth_hz = 0;
     /// Largest error of a weight by leaving keys out; of an angle, ten times as many degrees
     double tolerance = 0.01;
+    /// "motion" of the script. Dynamic tissue answers late: on the adult rig lips by up to 17 ms, brows by up to 50 ms.
+    track::Motion motion = track::Motion::kQuasiStatic;
 };
 
 /// Longest time without a face for which its last values are held, and the time of fading to rest after it, s.
