@@ -9,6 +9,7 @@
 #include "message_of.h"
 #include "motion/motion_samples.h"
 #include "paths.h"
+#include "risorius/io/morph_model.h"
 #include "risorius/motion/import_motion.h"
 #include "temporary_folder.h"
 
@@ -191,6 +192,87 @@ TEST_F(ReadMotion, BvhTurnsInTheOrderOfItsChannels) {
     EXPECT_EQ(motion.format, "bvh");
     EXPECT_NEAR(motion.fps, 30, 1e-3);
     expect_head(motion, 0.001);
+}
+
+TEST_F(ReadMotion, GlTfHasWeightsByName) {
+    io::MorphModel model;
+    model.name = "head";
+    model.vertices = Points::Zero(3, 3);
+    model.vertices(1, 0) = model.vertices(2, 1) = 1;
+    io::MorphPart part;
+    part.name = "skin";
+    part.triangles.resize(1, 3);
+    part.triangles << 0, 1, 2;
+    model.parts = {part};
+    for (const char* name : {"mouthSmile_L", "jawOpen", "wiggle"})
+        model.targets.push_back({name, {0}, Points::Ones(1, 3)});
+    io::MorphAnimation& animation = model.animations.emplace_back();
+    animation.fps = 30;
+    animation.weights.resize(31, 3);
+    for (int f = 0; f <= 30; ++f) {
+        const Moment now = moment(f / 30.0);
+        animation.weights.row(f) << static_cast<float>(now.smile_left),
+            static_cast<float>(now.jaw_open), 1;
+    }
+    const RecordedMotion motion = read("head.glb", io::glb_bytes(model));
+    EXPECT_EQ(motion.format, "gltf");
+    EXPECT_NEAR(motion.fps, 30, 1e-3);
+    EXPECT_LT(error_of(motion, "mouthSmileLeft", [](const Moment& m) { return m.smile_left; }),
+              1e-5);
+    EXPECT_LT(error_of(motion, "jawOpen", [](const Moment& m) { return m.jaw_open; }), 1e-5);
+    EXPECT_EQ(motion.unmapped, std::vector<std::string>{"wiggle"});
+}
+
+std::string base64(const std::vector<float>& numbers) {
+    std::string bytes(numbers.size() * 4, '\0'), out;
+    std::memcpy(bytes.data(), numbers.data(), bytes.size());
+    constexpr const char* kDigits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        unsigned bits = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            bits =
+                bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+        for (int k = 3; k >= 0; --k) out += kDigits[bits >> 6 * k & 63];
+    }
+    for (std::size_t k = 0; k < (3 - bytes.size() % 3) % 3; ++k) out[out.size() - 1 - k] = '=';
+    return out;
+}
+
+// An expression's weight is the x of a node's translation; the head is a bone, and has a pose at rest.
+TEST_F(ReadMotion, VrmAnimationsMoveNodes) {
+    const float half = 0.70710678f;  // a quarter turn about x at rest
+    std::vector<float> numbers{0, 0.5f, 1, 0, 0, 0, 0.25f, 0, 0, 1, 0, 0};
+    for (const double yaw : {0.0, 10.0, 20.0}) {
+        const Eigen::Quaterniond q =
+            Eigen::Quaterniond(half, half, 0, 0) *
+            Eigen::Quaterniond(Eigen::AngleAxisd(kRad * yaw, Vec3::UnitY()));
+        for (const double x : {q.x(), q.y(), q.z(), q.w()})
+            numbers.push_back(static_cast<float>(x));
+    }
+    const std::string text =
+        R"({"asset":{"version":"2.0"},"nodes":[{"name":"n"},{"name":"b","rotation":[0.70710678,0,0,0.70710678]}],
+        "extensions":{"VRMC_vrm_animation":{"specVersion":"1.0",
+          "expressions":{"preset":{"blink":{"node":0}}},"humanoid":{"humanBones":{"head":{"node":1}}}}},
+        "buffers":[{"byteLength":96,"uri":"data:application/octet-stream;base64,)" +
+        base64(numbers) +
+        R"("}],"bufferViews":[{"buffer":0,"byteLength":12},{"buffer":0,"byteOffset":12,"byteLength":36},
+          {"buffer":0,"byteOffset":48,"byteLength":48}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"SCALAR"},
+          {"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"},
+          {"bufferView":2,"componentType":5126,"count":3,"type":"VEC4"}],
+        "animations":[{"samplers":[{"input":0,"output":1},{"input":0,"output":2}],
+          "channels":[{"sampler":0,"target":{"node":0,"path":"translation"}},
+                      {"sampler":1,"target":{"node":1,"path":"rotation"}}]}]})";
+    const RecordedMotion motion = read("wave.vrma", text);
+    ASSERT_EQ(motion.times_s.size(), 3u);
+    for (const char* side : {"eyeBlinkLeft", "eyeBlinkRight"}) {
+        ASSERT_NE(motion.find(side), nullptr);
+        EXPECT_EQ(motion.find(side)->values, (std::vector<double>{0, 0.25, 1}));
+    }
+    for (int k = 0; k < 3; ++k)
+        EXPECT_NEAR(motion.find("head_yaw_deg")->values[static_cast<std::size_t>(k)], 10.0 * k,
+                    1e-4);
 }
 
 TEST_F(ReadMotion, WrongFilesSayWhereAndWhy) {
