@@ -11,6 +11,9 @@
 #include "message_of.h"
 #include "motion/motion_samples.h"
 #include "paths.h"
+#include "risorius/blendshapes/detail/shape_animation.h"
+#include "risorius/blendshapes/detail/shape_goals.h"
+#include "risorius/blendshapes/detail/shape_weights.h"
 #include "risorius/face/face.h"
 #include "risorius/motion/detail/reduce_keys.h"
 #include "risorius/rig/rig_description.h"
@@ -153,6 +156,30 @@ TEST_F(ImportMotion, SmoothingTakesNoiseAwayWithoutDelay) {
     import(webcam(frames), {.smooth_hz = 6, .tolerance = 1e-4});
     for (int f = 20; f < 100; ++f)
         EXPECT_NEAR(at("mouthSmileLeft", f / 60.0), 0.3 + 0.2 * bump(f / 60.0, 0.5, 1.5), 0.004);
+}
+
+// What `risorius shapes` writes for other programs comes back: 240 frames of a sample, with few keys.
+TEST_F(ImportMotion, TablesOfOurOwnComeBackWithATenthOfTheirValues) {
+    const scene::RigFiles files = scene::read_rig_files(kRig);
+    face::Face face(files.rig, files.mesh, face::quality_named("preview"), files.place());
+    const blendshapes::ShapeSet set =
+        blendshapes::shape_set(files.rig, "arkit52", {}, "rig.json", "rig.json");
+    const blendshapes::ShapeAnimation animation = blendshapes::bake_script(
+        fs::path(RISORIUS_SOURCE_DIR) / "samples/hello/script.json", files, set.goals,
+        blendshapes::ShapeWeights(face, files.rig.channels(), set.goals));
+    const ImportReport report = import(blendshapes::live_link_table(animation));
+    EXPECT_EQ(report.format, "livelink");
+    EXPECT_EQ(report.samples, animation.weights.rows());
+    EXPECT_EQ(report.fps, animation.fps);
+    EXPECT_LT(10 * report.keys(), report.values()) << report.keys();
+    RecordProperty("keys", static_cast<int>(report.keys()));
+    for (std::size_t s = 0; s < animation.shapes.size(); ++s) {
+        if (!script_.at("channels").contains(animation.shapes[s])) continue;
+        for (long f = 0; f < animation.weights.rows(); ++f)
+            EXPECT_NEAR(at(animation.shapes[s], static_cast<double>(f) / animation.fps),
+                        animation.weights(f, static_cast<long>(s)), 0.0101)
+                << animation.shapes[s];
+    }
 }
 
 // Muscles that follow excitation would be late by about 40 ms, and brows of dynamic tissue by 50 ms.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <random>
 #include <sstream>
 
 #include "message_of.h"
@@ -293,6 +294,47 @@ TEST_F(ReadMotion, WrongFilesSayWhereAndWhy) {
               "x.bvh: expected a joint with \"head\" in its name, found none");
     EXPECT_EQ(complaint("x.jsonl", "{\"timestampMs\": 0, \"faceBlendshapes\": []}\n"),
               "x.jsonl: expected a face in some sample, found none in any");
+}
+
+// Every file is read or refused; none makes the program crash or wait.
+TEST_F(ReadMotion, ChangedFilesAreReadOrRefused) {
+    const auto code = [](int f) { return "10:00:00:" + std::to_string(f); };
+    const std::string samples[] = {
+        live_link_sample(6, 60, code, [](int) { return false; }).substr(0, 6000),
+        mediapipe_sample().substr(0, 9000),
+        arkit_sample(),
+        openface_sample(),
+        pyfeat_sample(),
+        vmc_sample(),
+        bvh_sample()};
+    const std::string formats[] = {"livelink", "mediapipe", "arkit", "openface",
+                                   "pyfeat",   "vmc",       "bvh"};
+    std::mt19937 random(20051);  // arbitrary
+    int read_well = 0, refused = 0;
+    for (int round = 0; round < 60; ++round)
+        for (std::size_t s = 0; s < std::size(samples); ++s) {
+            std::string text = samples[s];
+            for (int changes = 1 + static_cast<int>(random() % 4); changes > 0; --changes) {
+                const std::size_t at = random() % text.size();
+                constexpr const char* kPieces[] = {"9e99", "-", ",",      "\n",  "[",
+                                                   "}",    ":", "1e-300", "\xff"};
+                if (random() % 3 == 0)
+                    text.erase(at, 1 + random() % 40);
+                else
+                    text.replace(at, 1, kPieces[random() % std::size(kPieces)]);
+                if (text.empty()) text = " ";
+            }
+            try {
+                RecordedMotion motion = read("changed", text, {.as = formats[s]});
+                ImportReport report;
+                prepare_motion(motion, {.smooth_hz = 7}, report);
+                ++read_well;
+            } catch (const Error&) {
+                ++refused;
+            }
+        }
+    EXPECT_GT(read_well, 20);
+    EXPECT_GT(refused, 20);
 }
 
 /// The truth of the shared samples, by column.

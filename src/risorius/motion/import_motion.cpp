@@ -27,7 +27,7 @@ void check(const ImportOptions& options) {
         throw Error(option_name("tolerance"), "a number in [0, 1]",
                     format_number(options.tolerance));
     if (!(options.smooth_hz >= 0 && options.smooth_hz <= 1000))
-        throw Error(option_name("smooth_hz"), "a frequency in [0, 1000]",
+        throw Error(option_name("smooth"), "a frequency in [0, 1000]",
                     format_number(options.smooth_hz));
     if (!(options.read.fps >= 0 && options.read.fps <= 1000))
         throw Error(option_name("fps"), "a rate in [0, 1000]", format_number(options.read.fps));

@@ -29,6 +29,9 @@ std::string letters_of(std::string_view name) {
     return out;
 }
 
+constexpr double kLongest_s = 3600;    // of a script
+constexpr double kLeastStep_s = 1e-6;  // of samples
+
 /// The usual step of rising times.
 double median_step(const std::vector<double>& times_s) {
     std::vector<double> steps;
@@ -103,11 +106,14 @@ RecordedMotion MotionBuilder::finish(const std::string& place, const std::string
     const double begin_s = out_.times_s.front();
     for (std::size_t i = 0; i < out_.times_s.size(); ++i) {
         out_.times_s[i] -= begin_s;
-        if (i > 0 && !(out_.times_s[i] > out_.times_s[i - 1]))
+        if (i > 0 && !(out_.times_s[i] - out_.times_s[i - 1] >= kLeastStep_s))
             throw Error(place + ": sample " + std::to_string(i + 1), "times that rise",
                         format_number(out_.times_s[i]) + " s after " +
                             format_number(out_.times_s[i - 1]) + " s");
     }
+    if (!(out_.times_s.back() <= kLongest_s))
+        throw Error(place, "motion of at most an hour",
+                    format_number(std::round(out_.times_s.back())) + " s");
     out_.format = format;
     const double step_s = out_.times_s.size() > 1 ? median_step(out_.times_s) : 1.0 / 30;
     // Times may be rounded; over all of them the rate is exact.

@@ -12,7 +12,8 @@ namespace risorius::motion {
 
 namespace {
 
-constexpr double kLids_hz = 15;  // a blink closes the lids in about 70 ms
+constexpr double kMostSmoothed = 500'000;  // samples: an hour at 120 a second
+constexpr double kLids_hz = 15;            // a blink closes the lids in about 70 ms
 
 std::string other_side(const std::string& name) {
     const auto swapped = [&](std::string_view one, std::string_view two) {
@@ -128,6 +129,9 @@ double value_at(const std::vector<double>& times_s, const std::vector<double>& v
 }
 
 void smooth(RecordedMotion& motion, double hz, ImportReport& report) {
+    if (const double even = motion.times_s.back() * motion.fps; even > kMostSmoothed)
+        throw Error(option_name("smooth"), "a recording of at most 500000 even samples",
+                    format_number(std::round(even)));
     std::vector<double> grid_s;
     for (long i = 0; static_cast<double>(i) / motion.fps <= motion.times_s.back() + 1e-6; ++i)
         grid_s.push_back(static_cast<double>(i) / motion.fps);

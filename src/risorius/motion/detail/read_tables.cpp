@@ -123,7 +123,11 @@ Timecode read_timecode(const Table& table, std::size_t row) {
         out.plain = parts[0];
         return out;
     }
-    if (at != end || parts.size() != 4 || parts[1] >= 60 || parts[2] >= 60)
+    // Hours, minutes, seconds, frames
+    constexpr double kMost[] = {24, 60, 60, 1000};
+    bool whole = at == end && parts.size() == 4;
+    for (std::size_t i = 0; whole && i < 4; ++i) whole = parts[i] < kMost[i];
+    if (!whole)
         throw Error(table.place(row, "Timecode"), "a time HH:MM:SS:FF.fff, or a number",
                     in_quotes(cell));
     out.hours = static_cast<int>(parts[0]);

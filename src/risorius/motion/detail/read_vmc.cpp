@@ -57,6 +57,8 @@ void read_packet(std::string_view bytes, const std::string& place, int depth,
     }
     OscMessage message{address, {}, {}};
     const std::string types = bytes.empty() ? "," : take_text(bytes, place);
+    if (!types.starts_with(','))
+        throw Error(place, "types that begin with a comma", in_quotes(types));
     for (const char type : std::string_view(types).substr(1)) {
         if (type == 's') {
             message.texts.push_back(take_text(bytes, place));
