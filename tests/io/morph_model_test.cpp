@@ -94,6 +94,30 @@ TEST(MorphModel, ReadsBackWhatWasWritten) {
     EXPECT_EQ(back.animations[0].weights, model.animations[0].weights);
 }
 
+TEST(MorphModel, IsReadWithPicturesInIt) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "quads.glb";
+    const std::string bytes = glb_bytes(two_quads());
+    auto [json, binary] = chunks(bytes);
+    // A picture in the buffer, and the material that shows it; nothing here can decode it.
+    json["images"] = {{{"mimeType", "image/png"}, {"bufferView", 0}}};
+    json["textures"] = {{{"source", 0}}};
+    json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+    std::string text = json.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    std::string changed =
+        bytes.substr(0, 20) + text + bytes.substr(bytes.size() - binary.size() - 8);
+    for (const auto& [at, value] : {std::pair{8, changed.size()}, std::pair{12, text.size()}}) {
+        const auto number = static_cast<std::uint32_t>(value);
+        std::memcpy(changed.data() + at, &number, 4);
+    }
+    std::ofstream(file, std::ios::binary) << changed;
+    const MorphModel back = read_glb(file);
+    EXPECT_EQ(back.vertices, two_quads().vertices.topRows(6));
+    ASSERT_EQ(back.targets.size(), 3u);
+    EXPECT_EQ(back.targets[0].delta, two_quads().targets[0].delta);
+}
+
 TEST(MorphModel, WholeNumbersAreWithinHalfAStepAndWhatTheirExtensionAsksFor) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "quads.glb";
