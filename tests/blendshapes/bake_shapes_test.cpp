@@ -11,6 +11,7 @@
 
 #include "paths.h"
 #include "risorius/animate/render_job.h"
+#include "risorius/blendshapes/detail/shape_animation.h"
 #include "risorius/blendshapes/detail/shape_weights.h"
 #include "risorius/blendshapes/shape_player.h"
 #include "risorius/core/error.h"
@@ -100,6 +101,19 @@ TEST(ShapeWeights, WhatLiesOnAnotherShapeGoesNoFartherThanThat) {
     EXPECT_NEAR(both[open], 1, 0.1);
 }
 
+TEST(LiveLinkTable, IsWholeWhateverShapesThereAre) {
+    ShapeAnimation animation;
+    animation.fps = 30;
+    animation.shapes = {"jawOpen"};
+    animation.weights = Eigen::MatrixXd::Constant(2, 1, 0.25);
+    animation.drives.resize(2);
+    const std::string table = live_link_table(animation);
+    EXPECT_EQ(table.rfind("Timecode,BlendShapeCount,EyeBlinkLeft,", 0), 0u);
+    const std::string second = table.substr(table.rfind("00:00:00:01.000,61,"));
+    EXPECT_EQ(std::count(second.begin(), second.end(), ','), 62);
+    EXPECT_EQ(second.find("0.25"), std::string("00:00:00:01.000,61,").size() + 17 * 9);
+}
+
 class BakedShapes : public testing::Test {
   protected:
     static ShapesOptions options(const std::vector<std::string>& only, int threads) {
@@ -186,6 +200,12 @@ TEST_F(BakedShapes, AreTheSameForAnyNumberOfThreads) {
     EXPECT_TRUE(fs::exists(alone.out / "shapes.glb"));
     EXPECT_FALSE(fs::exists(alone.out / "obj"));
     EXPECT_FALSE(fs::exists(alone.out / "shapes.f32"));
+    // It has no correctives, and is read without them.
+    const scene::RigFiles files = scene::read_rig_files(kAdult);
+    const ShapesOfFile read = read_shapes_of_file(
+        alone.out / "shapes.glb", files, rig::place_head(files.rig, files.mesh, files.place()));
+    EXPECT_EQ(read.goals.size(), 2u);
+    EXPECT_TRUE(read.rig.correctives.empty());
 }
 
 TEST_F(BakedShapes, AreWhatTheFilesHold) {

@@ -94,10 +94,35 @@ TEST(MorphModel, ReadsBackWhatWasWritten) {
     EXPECT_EQ(back.animations[0].weights, model.animations[0].weights);
 }
 
+TEST(MorphModel, IsReadWithPicturesInIt) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "quads.glb";
+    const std::string bytes = glb_bytes(two_quads());
+    auto [json, binary] = chunks(bytes);
+    // A picture in the buffer, and the material that shows it; nothing here can decode it.
+    json["images"] = {{{"mimeType", "image/png"}, {"bufferView", 0}}};
+    json["textures"] = {{{"source", 0}}};
+    json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+    std::string text = json.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    std::string changed =
+        bytes.substr(0, 20) + text + bytes.substr(bytes.size() - binary.size() - 8);
+    for (const auto& [at, value] : {std::pair{8, changed.size()}, std::pair{12, text.size()}}) {
+        const auto number = static_cast<std::uint32_t>(value);
+        std::memcpy(changed.data() + at, &number, 4);
+    }
+    std::ofstream(file, std::ios::binary) << changed;
+    const MorphModel back = read_glb(file);
+    EXPECT_EQ(back.vertices, two_quads().vertices.topRows(6));
+    ASSERT_EQ(back.targets.size(), 3u);
+    EXPECT_EQ(back.targets[0].delta, two_quads().targets[0].delta);
+}
+
 TEST(MorphModel, WholeNumbersAreWithinHalfAStepAndWhatTheirExtensionAsksFor) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "quads.glb";
-    const MorphModel model = two_quads();
+    MorphModel model = two_quads();
+    model.whole_numbers = true;
     const std::string bytes = glb_bytes(model);
     std::ofstream(file, std::ios::binary) << bytes;
     const double step = 0.5 / 32767;  // 0.5 is the maximum displacement
@@ -127,10 +152,12 @@ TEST(MorphModel, WholeNumbersAreWithinHalfAStepAndWhatTheirExtensionAsksFor) {
 
 TEST(MorphModel, IsWhatTheSpecificationOfGlTfAsksFor) {
     MorphModel model = two_quads();
-    model.whole_numbers = false;
     const auto read = chunks(glb_bytes(model));
     const Json& json = read.first;
     const std::string& binary = read.second;
+    // Metres, which any reader understands
+    EXPECT_FALSE(json.contains("extensionsRequired"));
+    EXPECT_FALSE(json["nodes"][0].contains("scale"));
     EXPECT_EQ(json["asset"]["version"], "2.0");
     const Json& mesh = json["meshes"][0];
     EXPECT_EQ(mesh["extras"]["targetNames"], Json({"lift", "nothing", "push"}));
@@ -153,8 +180,16 @@ TEST(MorphModel, IsWhatTheSpecificationOfGlTfAsksFor) {
                 EXPECT_EQ(count(index), vertices[p]) << name;
                 const Json& accessor = json["accessors"][index.get<std::size_t>()];
                 EXPECT_EQ(accessor["min"].size(), 3u);
-                // Zero except for the listed entries.
-                EXPECT_FALSE(accessor.contains("bufferView"));
+                // Zero except for the listed entries, with zeros under them: Godot 3 needs a view.
+                ASSERT_TRUE(accessor.contains("sparse") && accessor.contains("bufferView"));
+                const Json& zeros = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+                EXPECT_EQ(zeros["byteStride"], 12);
+                EXPECT_GE(zeros["byteLength"].get<int>(), 12 * vertices[p]);
+                EXPECT_EQ(binary
+                              .substr(zeros.value("byteOffset", 0u),
+                                      zeros["byteLength"].get<std::size_t>())
+                              .find_first_not_of('\0'),
+                          std::string::npos);
             }
     }
     // Only "lift" moves corner 4 of the first quad, and nothing else of it.

@@ -118,6 +118,39 @@ TEST(Timeline, GazeChannelsDriveOneEyeOrBoth) {
     EXPECT_EQ(drive.at(Kinematic::kGazePitchRight), -5.0);
 }
 
+TEST(Timeline, DirectActivationOfAUnitIsThatOfItsMusclesAndPlacesTheJaw) {
+    const Drive drive = timeline(R"({"AU12": {"keys": [[0, 0.5]], "activation": true},
+        "AU26": {"keys": [[0, 0.5]], "activation": true},
+        "zygomaticus_major.l": {"keys": [[0, 0.1]], "activation": true}})")
+                            .at(1);
+    const auto column = [](const char* name) { return tables().column(name); };
+    EXPECT_NEAR(drive.activation[column("zygomaticus_minor.r")],
+                asked("AU12", "zygomaticus_minor.r", 0.5), 1e-15);
+    EXPECT_NEAR(drive.activation[column("zygomaticus_major.l")],
+                0.1 + asked("AU12", "zygomaticus_major.l", 0.5), 1e-15);
+    EXPECT_EQ(excitation(drive, "zygomaticus_major.l"), 0);
+    const ActionUnit& drop = *tables().facs.find("AU26");
+    ASSERT_GT(drop.kinematic[static_cast<std::size_t>(Kinematic::kJawOpen)], 0);
+    EXPECT_NEAR(drive.at(Kinematic::kJawOpen),
+                0.5 * drop.kinematic[static_cast<std::size_t>(Kinematic::kJawOpen)], 1e-15);
+}
+
+TEST(Timeline, ShapesOfArkitAreChannelsThatTheTableExpands) {
+    const Drive drive = timeline(R"({"mouthSmileLeft": {"keys": [[0, 0.5]]},
+        "eyeLookOutLeft": {"keys": [[0, 0.4]], "activation": true},
+        "jawOpen": {"keys": [[0, 0.25]], "activation": true}})")
+                            .at(1);
+    EXPECT_NEAR(excitation(drive, "zygomaticus_minor.l"), asked("AU12", "zygomaticus_minor.l", 0.5),
+                1e-15);
+    EXPECT_EQ(excitation(drive, "zygomaticus_minor.r"), 0);
+    EXPECT_GT(drive.at(Kinematic::kGazeYawLeft), 5);
+    EXPECT_EQ(drive.at(Kinematic::kGazeYawRight), 0);
+    const ArkitShape& open = *tables().facs.find_arkit("jawOpen");
+    ASSERT_TRUE(open.jaw.open);
+    EXPECT_NEAR(drive.at(Kinematic::kJawOpen), 0.25 * *open.jaw.open, 1e-15);
+    EXPECT_GT(drive.activation[tables().column("platysma.l")], 0);
+}
+
 TEST(Timeline, DirectActivationIsSetOnlyWhereTheScriptSetsIt) {
     const Timeline face = timeline(R"({"mentalis.l": {"keys": [[0, 0.7]], "activation": true},
         "mentalis": {"keys": [[0, 0.2]]}})");

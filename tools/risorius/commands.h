@@ -24,6 +24,7 @@ void add_bench(CLI::App& app);
 void add_figure(CLI::App& app);
 void add_shapes(CLI::App& app);
 void add_solve(CLI::App& app);
+void add_import(CLI::App& app);
 void add_batch(CLI::App& app);
 
 /// Thrown for wrong input after the message has been printed.

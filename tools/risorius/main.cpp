@@ -143,6 +143,7 @@ int run(int argc, char** argv) {
     cli::add_evaluate(app);
     cli::add_shapes(app);
     cli::add_solve(app);
+    cli::add_import(app);
     cli::add_batch(app);
     cli::add_bench(app);
     cli::add_figure(app);

@@ -145,9 +145,14 @@ void add_shapes(CLI::App& app) {
                      "shapes are compared with the simulation; 0: none")
         ->check(CLI::Range(0, 100000))
         ->capture_default_str();
-    command->add_flag("--floats", options.floats,
-                      "Write floats instead of 16-bit integers into shapes.glb, for programs "
-                      "without KHR_mesh_quantization");
+    command->add_flag(
+        "--compact", options.compact,
+        "Write 16-bit integers instead of floats into shapes.glb. It becomes smaller, "
+        "but needs KHR_mesh_quantization and has a scale of its node");
+    command
+        ->add_flag_callback("--floats",
+                            [] { std::fprintf(stderr, "note: --floats is the default now\n"); })
+        ->group("");  // of earlier versions
     command->add_flag("--no-pictures", arguments->no_pictures,
                       "Write the accuracy report without pictures");
     command->add_option(

@@ -69,9 +69,11 @@ void add_solve(CLI::App& app) {
         ->add_option("-o,--out", options.out,
                      "The folder to write: script.json, which render plays, and results.json")
         ->required();
-    command->add_option("--shapes", options.shapes,
-                        "Blend shapes on the rig's mesh: a table (.json, see "
-                        "docs/formats/measured-shapes.md), or shapes.glb of risorius shapes");
+    command->add_option(
+        "--shapes", options.shapes,
+        "Blend shapes on the rig's mesh: a table (.json, see "
+        "docs/formats/measured-shapes.md), or glTF of risorius shapes or of another "
+        "program, which has the mesh in the rest position");
     command
         ->add_option("--mesh", options.meshes,
                      "Instead of --shapes: the rig's mesh with displaced vertices, OBJ; separate "

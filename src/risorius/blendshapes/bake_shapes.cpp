@@ -277,12 +277,11 @@ ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& mo
         io::MorphModel model =
             morph_model(files, head, report.shapes, set.name, report.correctives.rig,
                         report.animation ? &*report.animation : nullptr);
-        model.whole_numbers = !options.floats;
+        model.whole_numbers = options.compact;
         report::write_text(folder.partial() / "shapes.glb", io::glb_bytes(model));
         keep({"shapes.glb"});
     }
-    if (report.animation && set.name == "arkit52" && options.only.empty() &&
-        wants(options, "csv")) {
+    if (report.animation && set.name == "arkit52" && wants(options, "csv")) {
         report::write_text(folder.partial() / "live_link.csv", live_link_table(*report.animation));
         keep({"live_link.csv"});
     }

@@ -24,8 +24,8 @@ struct ShapesOptions {
     std::vector<std::string> only = {};     ///< names of shapes; empty: the whole set
     std::string quality = "preview";        ///< face::quality_named(): the mesh of the simulation
     std::vector<std::string> formats = {};  ///< names of shape_formats(); empty: all but "cache"
-    /// True: the .glb holds displacements as floats instead of 16-bit integers
-    bool floats = false;
+    /// True: the .glb holds displacements as 16-bit integers, with a scale of its node, instead of floats in metres
+    bool compact = false;
     bool pictures = true;
     bool correctives = true;
     /// Values that replace those of correctives_of_set().

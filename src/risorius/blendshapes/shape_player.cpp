@@ -47,10 +47,14 @@ ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const scene:
     ShapesOfFile out;
     out.set = extras.at("set").string();
 
-    // Correctives follow the shapes in the order of their list.
-    const std::vector<JsonCursor> correctives = extras.at("correctives").items();
+    // Correctives follow the shapes in the order of their list. Writers of glTF leave empty lists out.
+    const auto listed = [&](const char* key) {
+        const auto found = extras.find(key);
+        return found && !found->json().is_null() ? found->items() : std::vector<JsonCursor>{};
+    };
+    const std::vector<JsonCursor> correctives = listed("correctives");
     if (correctives.size() >= model.targets.size())
-        extras.at("correctives").fail("fewer of them than morph targets");
+        extras.fail("fewer correctives than morph targets", std::to_string(correctives.size()));
     const std::size_t count = model.targets.size() - correctives.size();
     std::vector<std::string> names;
     for (std::size_t s = 0; s < count; ++s) {
@@ -71,7 +75,7 @@ ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const scene:
             indices.push_back(static_cast<int>(index_of_name(name.place(), name.string(), names)));
         return indices;
     };
-    const std::vector<JsonCursor> drivers = extras.at("terms").items();
+    const std::vector<JsonCursor> drivers = listed("terms");
     for (const JsonCursor& json : drivers) {
         blendshapes::Driver& driver = out.rig.drivers.emplace_back();
         driver.name = json.at("name").string();

@@ -28,7 +28,7 @@ namespace risorius::inverse {
 /// Options of solve_activations().
 struct SolveOptions {
     std::filesystem::path rig = {}, out = {};  ///< out: a folder
-    /// Exactly one of the following three is given. A table of measured shapes (.json), or shapes.glb of `risorius shapes`.
+    /// Exactly one of the following three is given. A table of measured shapes (.json), or glTF with shapes on the rig's mesh.
     std::filesystem::path shapes = {};
     /// Copies of the rig's mesh with displaced vertices
     std::vector<std::filesystem::path> meshes = {};

@@ -7,7 +7,7 @@
 /// mesh.
 ///
 /// Blend shapes are morph targets of positions and normals. They are stored where they are not zero (sparse accessors), and
-/// their names are in the mesh's extras.targetNames. Positions of targets are 16-bit integers, which the scale of the node
+/// their names are in the mesh's extras.targetNames. On request, positions are 16-bit integers, which the scale of the node
 /// converts to metres (KHR_mesh_quantization). They are not "normalized" integers, because three.js from r145 to r168 reads
 /// those wrongly in sparse accessors. Normals are floats.
 ///
@@ -63,7 +63,7 @@ struct MorphModel {
     Json extras;  ///< an object; its keys are written next to targetNames
     /// true: displacements are integer multiples of 1/32767 of the maximum. false: floats, for readers that do not know
     /// KHR_mesh_quantization.
-    bool whole_numbers = true;
+    bool whole_numbers = false;
 };
 
 /// Returns the bytes of the file. They depend only on the model.

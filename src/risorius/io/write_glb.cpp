@@ -79,6 +79,14 @@ class Packer {
   public:
     explicit Packer(tinygltf::Model& model) : model_(model) { model_.buffers.emplace_back(); }
 
+    /// Makes the zeros under sparse accessors of up to `count` vectors. Some readers (Godot 3) take an accessor without a view
+    /// for one of view 0. The stride lets vectors of 16-bit integers use the same view.
+    void make_zeros(unsigned count) {
+        zeros_ =
+            view(Floats(3 * static_cast<std::size_t>(count), 0.f), TINYGLTF_TARGET_ARRAY_BUFFER);
+        model_.bufferViews.back().byteStride = 3 * sizeof(float);
+    }
+
     int floats(const Floats& values, int type, bool with_range, int target = 0) {
         tinygltf::Accessor accessor = described(values, type, with_range);
         accessor.bufferView = view(values, target);
@@ -104,6 +112,7 @@ class Packer {
         if (at.size() < count) all.insert(all.end(), 3, T{0});
         tinygltf::Accessor accessor = described(all, TINYGLTF_TYPE_VEC3, true);
         accessor.count = count;
+        accessor.bufferView = zeros_;
         accessor.sparse.isSparse = true;
         accessor.sparse.count = static_cast<int>(at.size());
         std::tie(accessor.sparse.indices.bufferView, accessor.sparse.indices.componentType) =
@@ -162,6 +171,7 @@ class Packer {
     }
 
     tinygltf::Model& model_;
+    int zeros_ = -1;  ///< the view of zeros
 };
 
 // The vertices of a part: one for every vertex of the model that it uses, and one more for every further texture coordinate
@@ -335,6 +345,12 @@ std::string glb_bytes(const MorphModel& model) {
                                                       false);
         mesh.primitives.push_back(primitive);
     }
+    if (!model.targets.empty() && !vertices.empty())
+        packer.make_zeros(std::max_element(vertices.begin(), vertices.end(),
+                                           [](const PartVertices& a, const PartVertices& b) {
+                                               return a.count() < b.count();
+                                           })
+                              ->count());
     std::vector<PartTargets> targets;
     for (const PartVertices& part : vertices) targets.emplace_back(packer, part, unit);
     for (const MorphTarget& target : model.targets) {

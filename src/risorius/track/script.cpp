@@ -128,13 +128,13 @@ class Reader {
         ChannelTrack track;
         track.name = name;
         Range range{0, 1};
-        bool is_muscle = false;
-        track.drives = resolve(json, name, range, is_muscle, track.curve);
+        bool has_muscles = false;
+        track.drives = resolve(json, name, range, has_muscles, track.curve);
 
         if (const auto v = json.find("activation")) {
             track.activation = v->boolean();
-            if (track.activation && !is_muscle)
-                v->fail("\"activation\" on the channel of a muscle only");
+            if (track.activation && !has_muscles)
+                v->fail("\"activation\" on a channel that moves muscles only");
         }
         if (const auto v = json.find("interpolation")) {
             const std::string text = v->one_of({"step", "linear", "smooth"});
@@ -315,9 +315,17 @@ class Reader {
         event.drives.add(expand(*unit, event.side, channels_), event.intensity);
     }
 
-    /// Also returns the range of the channel's values, whether it is a muscle, and the curve of an action unit.
+    /// What a shape of ARKit stands for. A shape of one unit has the curve of that unit, others the mean of the units.
+    Expansion shape_drives(const ArkitShape& shape, IntensityCurve& curve) const {
+        const bool is_unit = shape.units.size() == 1 && shape.muscles.empty();
+        curve = is_unit ? facs_.find(shape.units.front().unit)->curve : curve_of_added_muscles();
+        return expand(shape, facs_, channels_);
+    }
+
+    /// Also returns the range of the channel's values, whether it may set activation (all but kinematic channels), and the curve
+    /// of an action unit or a shape.
     Expansion resolve(const JsonCursor& json, const std::string& name, Range& range,
-                      bool& is_muscle, IntensityCurve& curve) const {
+                      bool& has_muscles, IntensityCurve& curve) const {
         const std::vector<Kinematic> kinematic = kinematic_named(name);
         if (!kinematic.empty()) {
             Expansion drives = Expansion::none(channels_);
@@ -328,9 +336,10 @@ class Reader {
             }
             return drives;
         }
+        has_muscles = true;
+        if (const ArkitShape* shape = facs_.find_arkit(name)) return shape_drives(*shape, curve);
         const std::string id = split_side(name).id;
         if (const MuscleChannel* muscle = channels_.find(id)) {
-            is_muscle = true;
             range = {muscle->min, 1};
             return expand(muscle_named(json, name, channels_), channels_);
         }
@@ -342,6 +351,7 @@ class Reader {
         std::vector<std::string_view> known;
         for (const MuscleChannel& muscle : channels_.muscles) known.push_back(muscle.id);
         for (const ActionUnit& unit : facs_.units) known.push_back(unit.id);
+        for (const ArkitShape& shape : facs_.arkit) known.push_back(shape.name);
         for (const KinematicChannel& channel : kinematic_channels())
             known.push_back(channel.name.ends_with(".l") || channel.name.ends_with(".r")
                                 ? channel.name.substr(0, channel.name.size() - 2)

@@ -75,7 +75,7 @@ struct ChannelTrack {
     Interpolation interpolation = Interpolation::kSmooth;
     bool activation = false;  ///< sets activation directly, bypassing activation dynamics
     Expansion drives;         ///< contribution of the channel at value 1
-    IntensityCurve curve{};   ///< of an action unit
+    IntensityCurve curve{};   ///< of an action unit or an ARKit shape
 };
 
 /// An expression rises along a minimum-jerk curve, is held and falls again. Every unit has its own delay within the onset.

@@ -40,10 +40,16 @@ Timeline::Timeline(const ScriptDescription& script, const ChannelTable& channels
             sources_.push_back({std::move(curve), channel.drives, channel.curve});
             continue;
         }
-        DirectActivation direct{std::move(curve), {}};
+        DirectActivation direct{curve, channel.curve, {}};
         for (int column = 0; column < channel.drives.excitation.size(); ++column)
-            if (channel.drives.excitation[column] != 0) direct.columns.push_back(column);
+            if (const double share = channel.drives.excitation[column]; share != 0)
+                direct.columns.emplace_back(column, share);
         activations_.push_back(std::move(direct));
+        // Jaw, eyes and tongue have no activation. They move as they do otherwise.
+        Expansion placed = Expansion::none(channels);
+        placed.kinematic = channel.drives.kinematic;
+        if (placed.kinematic != KinematicValues{})
+            sources_.push_back({std::move(curve), std::move(placed), {}});
     }
 }
 
@@ -115,12 +121,16 @@ Drive Timeline::together_at(double t_s) const {
     // Activation that is set directly: several tracks of one muscle are added, too.
     constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
     drive.activation = Eigen::VectorXd::Constant(column_min_.size(), kUnset);
-    for (const DirectActivation& direct : activations_)
-        for (int column : direct.columns) {
+    for (const DirectActivation& direct : activations_) {
+        const double activation = direct.intensity.activation(direct.curve.at(t_s));
+        for (const auto& [column, share] : direct.columns) {
             double& value = drive.activation[column];
-            value = (value == value ? value : 0.0) + direct.curve.at(t_s);
-            value = std::clamp(value, column_min_[column], 1.0);
+            value = (value == value ? value : 0.0) + share * activation;
         }
+    }
+    for (long column = 0; column < drive.activation.size(); ++column)
+        if (double& value = drive.activation[column]; value == value)
+            value = std::clamp(value, column_min_[column], 1.0);
     return drive;
 }
 

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "risorius/track/detail/curve.h"
@@ -46,7 +47,8 @@ class Timeline {
     };
     struct DirectActivation {
         Curve curve;
-        std::vector<int> columns;
+        IntensityCurve intensity;
+        std::vector<std::pair<int, double>> columns;  ///< of muscles, with their shares
     };
 
     std::vector<Source> sources_;

@@ -24,7 +24,11 @@ UnitIntensity::UnitIntensity(const ScriptDescription& script, const FacsTable& f
             use = {channel.name, std::nullopt, 1};
         else if (facs.find(sided.id))
             use = {sided.id, sided.side, 1};
-        else
+        else if (const ArkitShape* shape = facs.find_arkit(channel.name)) {
+            for (const UnitUse& part : shape->units)
+                tracks_.push_back({Curve(channel.keys, channel.interpolation), part});
+            continue;
+        } else
             continue;
         tracks_.push_back({Curve(channel.keys, channel.interpolation), std::move(use)});
     }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/blendshapes/detail/shape_animation.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
 
-#include "risorius/core/error.h"
 #include "risorius/scene/script_drives.h"
 #include "risorius/talk/say_event.h"
 #include "risorius/track/arkit_names.h"
@@ -51,11 +51,14 @@ ShapeAnimation bake_script(const std::filesystem::path& script_file, const scene
 }
 
 std::string live_link_table(const ShapeAnimation& animation) {
-    if (animation.shapes != track::arkit_names())
-        throw Error(animation.name, "the 52 shapes of ARKit for a table of Live Link Face",
-                    std::to_string(animation.shapes.size()) + " others");
-    std::string out = "Timecode,BlendshapeCount";
-    for (std::string name : animation.shapes) {
+    const std::vector<std::string>& names = track::arkit_names();
+    std::vector<long> columns;  // -1: not among the shapes
+    for (const std::string& name : names) {
+        const auto found = std::find(animation.shapes.begin(), animation.shapes.end(), name);
+        columns.push_back(found == animation.shapes.end() ? -1 : found - animation.shapes.begin());
+    }
+    std::string out = "Timecode,BlendShapeCount";
+    for (std::string name : names) {
         name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
         out += "," + name;
     }
@@ -67,9 +70,8 @@ std::string live_link_table(const ShapeAnimation& animation) {
         out += text;
     };
     for (long f = 0; f < animation.weights.rows(); ++f) {
-        out += timecode(f, animation.fps) + "," +
-               std::to_string(animation.shapes.size() + std::size(kTurns));
-        for (long s = 0; s < animation.weights.cols(); ++s) add(animation.weights(f, s));
+        out += timecode(f, animation.fps) + "," + std::to_string(names.size() + std::size(kTurns));
+        for (const long column : columns) add(column < 0 ? 0.0 : animation.weights(f, column));
         const track::Drive& drive = animation.drives[static_cast<std::size_t>(f)];
         using track::Kinematic;
         for (const Kinematic k : {Kinematic::kHeadYaw, Kinematic::kHeadPitch, Kinematic::kHeadRoll})

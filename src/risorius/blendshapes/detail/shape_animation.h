@@ -29,7 +29,7 @@ ShapeAnimation bake_script(const std::filesystem::path& script, const scene::Rig
                            const std::vector<ShapeGoal>& goals, const ShapeWeights& weights);
 
 /// Returns a table (CSV) in the format of the app Live Link Face: one row per frame with the 52 shapes of ARKit in their standard
-/// order, followed by the rotations of head and eyes, rad. Throws Error when the animation has other shapes.
+/// order, followed by the rotations of head and eyes, rad. Shapes that the animation does not have stay 0.
 std::string live_link_table(const ShapeAnimation& animation);
 
 }  // namespace risorius::blendshapes

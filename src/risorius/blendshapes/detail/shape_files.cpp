@@ -136,11 +136,15 @@ io::MorphModel morph_model(const scene::RigFiles& files, const rig::Head& head,
     model.extras = {{"risorius",
                      {{"rig", files.rig.name},
                       {"set", set},
+                      {"unit", "m"},
+                      {"up", "+Y"},
+                      {"front", "+Z"},
                       {"vertices", head.vertices.rows()},
                       {"on_top_of", on_top},
                       {"terms", drivers},
                       {"correctives", correctives}}}};
     if (animation) {
+        model.extras["risorius"]["fps"] = animation->fps;
         io::MorphAnimation& out = model.animations.emplace_back();
         out.name = animation->name;
         out.fps = animation->fps;

@@ -10,7 +10,9 @@
 #include "risorius/core/error.h"
 #include "risorius/core/known_names.h"
 #include "risorius/face/surfaces.h"
+#include "risorius/inverse/detail/foreign_shapes.h"
 #include "risorius/inverse/measured_shapes.h"
+#include "risorius/io/gltf_shapes.h"
 #include "risorius/io/read_mesh.h"
 #include "risorius/scene/expression_score.h"
 #include "risorius/signal/recording.h"
@@ -53,11 +55,43 @@ Rigid nearest_motion(const Points& from, const Points& to) {
 
 }  // namespace
 
+namespace {
+
+/// Shapes of a glTF file that another program has written.
+FitTarget foreign_shapes(const io::GltfShapes& shapes, const fs::path& file,
+                         const std::vector<std::string>& only, const face::Face& face) {
+    std::vector<std::string> names;
+    for (const io::MorphTarget& target : shapes.targets) names.push_back(target.name);
+    for (const std::string& name : only) index_of_name(option_name("only"), name, names);
+    const ForeignShapes placed = place_foreign_shapes(shapes, face.head(), file.string());
+    FitTarget out;
+    out.notes.push_back(placed.how);
+    const auto jaw = std::find(names.begin(), names.end(), "jawOpen");
+    for (std::size_t s = 0; s < names.size(); ++s) {
+        if (!only.empty() && std::find(only.begin(), only.end(), names[s]) == only.end()) continue;
+        out.names.push_back(names[s]);
+        Points& field = out.fields.emplace_back(placed.fields[s]);
+        // It is made for the open jaw.
+        if (names[s] == "mouthClose" && jaw != names.end())
+            field += placed.fields[static_cast<std::size_t>(jaw - names.begin())];
+    }
+    out.weight = weights_of(face, out.fields);
+    for (long v = 0; v < out.weight.size(); ++v)
+        if (!placed.known[static_cast<std::size_t>(v)]) out.weight[v] = 0;
+    return out;
+}
+
+}  // namespace
+
 FitTarget given_shapes(const fs::path& file, const std::vector<std::string>& only,
                        const scene::RigFiles& files, const face::Face& face) {
     const rig::Head& head = face.head();
     FitTarget out;
-    if (file.extension() == ".glb") {
+    const std::string ending = file.extension().string();
+    if (ending == ".glb" || ending == ".gltf" || ending == ".vrm")
+        if (const io::GltfShapes shapes = io::read_gltf_shapes(file); !shapes.by_risorius)
+            return foreign_shapes(shapes, file, only, face);
+    if (ending == ".glb") {
         const blendshapes::ShapesOfFile shapes =
             blendshapes::read_shapes_of_file(file, files, head);
         std::vector<std::string> names;

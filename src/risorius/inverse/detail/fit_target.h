@@ -25,7 +25,7 @@ struct FitTarget {
     std::vector<std::string> notes = {};  ///< values of landmarks that were missing and are bridged
 };
 
-/// Reads a table of measured shapes (.json), or shapes.glb of `risorius shapes`. `only`: names; empty: all. Throws Error.
+/// Reads a table of measured shapes (.json), shapes.glb of `risorius shapes`, or the shapes of any other glTF file on the rig's mesh. `only`: names; empty: all. Throws Error.
 FitTarget given_shapes(const std::filesystem::path& file, const std::vector<std::string>& only,
                        const scene::RigFiles& files, const face::Face& face);
 

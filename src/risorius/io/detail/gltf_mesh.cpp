@@ -16,11 +16,6 @@ namespace risorius::io::detail {
 
 namespace {
 
-using Matrix4 = Eigen::Matrix4d;
-using Index = std::uint32_t;
-
-constexpr int kTriangles = 4, kStrip = 5, kFan = 6;  // modes of primitives
-
 /// `width` numbers of a list in the JSON.
 std::vector<double> numbers_of(const JsonCursor& list, std::size_t width) {
     std::vector<double> out;
@@ -30,9 +25,11 @@ std::vector<double> numbers_of(const JsonCursor& list, std::size_t width) {
     return out;
 }
 
-Matrix4 transform_of(const JsonCursor& node) {
+}  // namespace
+
+Eigen::Matrix4d transform_of(const JsonCursor& node) {
     if (const auto matrix = node.find("matrix"))
-        return Eigen::Map<const Matrix4>(numbers_of(*matrix, 16).data());
+        return Eigen::Map<const Eigen::Matrix4d>(numbers_of(*matrix, 16).data());
     Eigen::Affine3d out = Eigen::Affine3d::Identity();
     if (const auto list = node.find("translation")) {
         const auto t = numbers_of(*list, 3);
@@ -49,6 +46,13 @@ Matrix4 transform_of(const JsonCursor& node) {
     }
     return out.matrix();
 }
+
+namespace {
+
+using Matrix4 = Eigen::Matrix4d;
+using Index = std::uint32_t;
+
+constexpr int kTriangles = 4, kStrip = 5, kFan = 6;  // modes of primitives
 
 std::string name_of(const JsonCursor& item) {
     const auto name = item.find("name");
