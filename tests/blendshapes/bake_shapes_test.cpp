@@ -11,6 +11,7 @@
 
 #include "paths.h"
 #include "risorius/animate/render_job.h"
+#include "risorius/blendshapes/detail/point_cache.h"
 #include "risorius/blendshapes/detail/shape_animation.h"
 #include "risorius/blendshapes/detail/shape_weights.h"
 #include "risorius/blendshapes/shape_player.h"
@@ -112,6 +113,20 @@ TEST(LiveLinkTable, IsWholeWhateverShapesThereAre) {
     const std::string second = table.substr(table.rfind("00:00:00:01.000,61,"));
     EXPECT_EQ(std::count(second.begin(), second.end(), ','), 62);
     EXPECT_EQ(second.find("0.25"), std::string("00:00:00:01.000,61,").size() + 17 * 9);
+}
+
+TEST(PointCaches, HaveTheirHeadersAndByteOrders) {
+    const PointCache cache{2, 2, 50, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, -0.5f}};
+    const std::string pc2 = pc2_bytes(cache), mdd = mdd_bytes(cache);
+    EXPECT_EQ(pc2.size(), 32u + 48u);
+    EXPECT_EQ(pc2.substr(0, 12), std::string("POINTCACHE2\0", 12));
+    EXPECT_EQ(pc2.substr(12, 8), std::string("\1\0\0\0\2\0\0\0", 8));
+    EXPECT_EQ(pc2.substr(20, 12), std::string("\0\0\0\0\0\0\x80\x3f\2\0\0\0", 12));
+    EXPECT_EQ(pc2.substr(76), std::string("\0\0\0\xbf", 4));
+    EXPECT_EQ(mdd.size(), 8u + 8u + 48u);
+    EXPECT_EQ(mdd.substr(0, 8), std::string("\0\0\0\2\0\0\0\2", 8));
+    EXPECT_EQ(mdd.substr(8, 8), std::string("\0\0\0\0\x3c\xa3\xd7\x0a", 8));  // 0 and 0.02 s
+    EXPECT_EQ(mdd.substr(60), std::string("\xbf\0\0\0", 4));
 }
 
 class BakedShapes : public testing::Test {

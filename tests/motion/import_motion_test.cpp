@@ -182,7 +182,7 @@ TEST_F(ImportMotion, TablesOfOurOwnComeBackWithATenthOfTheirValues) {
     }
 }
 
-// Muscles that follow excitation would be late by about 40 ms, and brows of dynamic tissue by 50 ms.
+// Muscles that follow excitation would be late, and brows of dynamic tissue by 50 ms.
 TEST_F(ImportMotion, LipsAndBrowsArriveWithinAFrameOfTheRecording) {
     constexpr double kFps = 30;
     std::string frames;

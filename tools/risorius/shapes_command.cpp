@@ -107,10 +107,11 @@ void add_shapes(CLI::App& app) {
         ->delimiter(',')
         ->allow_extra_args(false);
     command
-        ->add_option("--formats", options.formats,
-                     "Any of glb, obj, table (shapes.json with shapes.f32) and, with --script, csv "
-                     "(live_link.csv) and cache (vertices of every frame), separated by commas. "
-                     "Default: all but cache")
+        ->add_option(
+            "--formats", options.formats,
+            "Any of glb, obj, table (shapes.json with shapes.f32) and, with --script, csv "
+            "(live_link.csv) and cache, pc2 or mdd (vertices of every frame), separated by "
+            "commas. Default: all but these three")
         ->delimiter(',')
         ->allow_extra_args(false);
     command

@@ -181,7 +181,8 @@ std::vector<TrackError> compare_tracks(const scene::RigFiles& files, const Shape
 }  // namespace
 
 const std::vector<std::string>& shape_formats() {
-    static const std::vector<std::string> kNames{"glb", "obj", "table", "csv", "cache"};
+    static const std::vector<std::string> kNames{"glb",   "obj", "table", "csv",
+                                                 "cache", "pc2", "mdd"};
     return kNames;
 }
 
@@ -285,10 +286,11 @@ ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& mo
         report::write_text(folder.partial() / "live_link.csv", live_link_table(*report.animation));
         keep({"live_link.csv"});
     }
-    // The cache is large, so it is written only on request.
-    if (report.animation && !options.formats.empty() && wants(options, "cache"))
+    // Caches are large, so they are written only on request.
+    if (report.animation && !options.formats.empty() &&
+        (wants(options, "cache") || wants(options, "pc2") || wants(options, "mdd")))
         keep(write_vertex_cache(files, head, report.correctives.rig, *report.animation,
-                                folder.partial()));
+                                options.formats, folder.partial()));
     if (wants(options, "table"))
         keep(write_shape_table(files, head, report.shapes, folder.partial()));
     if (wants(options, "obj")) keep(write_shape_objs(files, head, report.shapes, folder.partial()));

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/blendshapes/detail/shape_files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "risorius/blendshapes/detail/corrective_drivers.h"
+#include "risorius/blendshapes/detail/point_cache.h"
 #include "risorius/blendshapes/detail/shape_correctives.h"
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
@@ -196,8 +198,10 @@ std::vector<std::string> write_shape_table(const scene::RigFiles& files, const r
 std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const rig::Head& head,
                                             const blendshapes::BlendShapeRig& linear,
                                             const ShapeAnimation& animation,
+                                            const std::vector<std::string>& formats,
                                             const std::filesystem::path& folder) {
-    std::string numbers;
+    PointCache cache{
+        head.vertices.rows(), animation.weights.rows(), static_cast<double>(animation.fps), {}};
     std::vector<float> frame(3 * static_cast<std::size_t>(head.vertices.rows()));
     for (long f = 0; f < animation.weights.rows(); ++f) {
         Points moved = Points::Zero(head.vertices.rows(), 3);
@@ -209,9 +213,18 @@ std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const 
             for (long k = 0; k < 3; ++k)
                 frame[static_cast<std::size_t>(3 * v + k)] = static_cast<float>(at[k]);
         }
-        numbers.append(reinterpret_cast<const char*>(frame.data()), frame.size() * sizeof(float));
+        cache.positions.insert(cache.positions.end(), frame.begin(), frame.end());
     }
-    write_file(folder / "cache.f32", numbers);
+    std::vector<std::string> written;
+    for (const std::string& format : formats) {
+        if (format != "pc2" && format != "mdd") continue;
+        written.push_back("cache." + format);
+        write_file(folder / written.back(), format == "pc2" ? pc2_bytes(cache) : mdd_bytes(cache));
+    }
+    if (std::find(formats.begin(), formats.end(), "cache") == formats.end()) return written;
+    write_file(folder / "cache.f32",
+               std::string(reinterpret_cast<const char*>(cache.positions.data()),
+                           cache.positions.size() * sizeof(float)));
     const Json json{{"format", "risorius-vertex-cache"},
                     {"version", 1},
                     {"shape", {animation.weights.rows(), head.vertices.rows(), 3}},
@@ -221,7 +234,8 @@ std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const 
                     {"fps", animation.fps},
                     {"units_per_metre", 1 / head.frame.metres_per_unit}};
     report::write_text(folder / "cache.json", json_text(json, 1) + "\n");
-    return {"cache.json", "cache.f32"};
+    written.insert(written.end(), {"cache.json", "cache.f32"});
+    return written;
 }
 
 std::vector<std::string> write_shape_objs(const scene::RigFiles& files, const rig::Head& head,

@@ -24,11 +24,12 @@ io::MorphModel morph_model(const scene::RigFiles& files, const rig::Head& head,
                            const blendshapes::BlendShapeRig& linear,
                            const ShapeAnimation* animation);
 
-/// Writes folder/cache.json and folder/cache.f32: every vertex in every frame of the animation, in mesh units, computed with the
-/// blend shape rig. Returns the names of the files.
+/// Writes every vertex in every frame of the animation, in mesh units, computed with the blend shape rig. Of `formats`, "cache" is
+/// folder/cache.json and folder/cache.f32, "pc2" cache.pc2 and "mdd" cache.mdd. Returns the names of the files.
 std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const rig::Head& head,
                                             const blendshapes::BlendShapeRig& linear,
                                             const ShapeAnimation& animation,
+                                            const std::vector<std::string>& formats,
                                             const std::filesystem::path& folder);
 
 /// Writes folder/shapes.json and folder/shapes.f32 (docs/formats/measured-shapes.md) which also hold the activations that made
