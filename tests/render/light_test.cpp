@@ -218,7 +218,7 @@ TEST(Light, WrongLightIsNamed) {
                   return o;
               }()),
               "light/preset: expected one of \"studio\", \"soft\", \"dramatic\", \"outdoor\", "
-              "\"even\", found \"disco\"");
+              "\"portrait\", \"even\", found \"disco\"");
     EXPECT_EQ(message([] {
                   LightOptions o;
                   o.exposure_ev = 11;

@@ -26,7 +26,7 @@ constexpr double kBlinkApart_s = 0.3;  // minimum distance of idle blinks from b
 ScriptLight read_light(const JsonCursor& json) {
     ScriptLight light;
     const auto preset = [&](const JsonCursor& name) {
-        light.preset = name.one_of({"studio", "soft", "dramatic", "outdoor", "even"});
+        light.preset = name.one_of({"studio", "soft", "dramatic", "outdoor", "portrait", "even"});
     };
     if (json.is_string()) {
         preset(json);

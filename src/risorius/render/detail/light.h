@@ -34,7 +34,7 @@ struct LightOptions {
 /// Linear light above this fraction of white is compressed, so that highlights keep their shading.
 constexpr double kStraightTo = 0.5;
 
-/// The names of the presets: "studio", "soft", "dramatic", "outdoor", "even".
+/// The names of the presets: "studio", "soft", "dramatic", "outdoor", "portrait", "even".
 const std::vector<std::string>& light_names();
 
 }  // namespace risorius::render

@@ -56,6 +56,14 @@ const Preset kPresets[] = {
      {0.42, 0.60, 0.95},
      {0.62, 0.68, 0.72},
      {0.30, 0.27, 0.22}},
+    // A weaker key, a broad fill and a strong rim: the form of dark skin shows as well as that of light skin.
+    {"portrait",
+     {-32, 30, 1.00 * kWarm},
+     {50, 0, 0.50 * kCool},
+     {140, 20, 0.90 * kCool},
+     {0.40, 0.41, 0.42},
+     {0.22, 0.22, 0.225},
+     {0.16, 0.145, 0.135}},
     {"even", {0, 0, kNone}, {0, 0, kNone}, {0, 0, kNone}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}},
 };
 

@@ -45,7 +45,7 @@ constexpr double kSkinRoughness = 0.52;
 constexpr double kPore_m = 0.5e-3;
 
 // Linear albedo of the mucosa
-const Vec3 kGums(0.42, 0.12, 0.11), kTongue(0.38, 0.10, 0.09), kMouth(0.24, 0.045, 0.04);
+const Vec3 kGums(0.46, 0.18, 0.165), kTongue(0.46, 0.17, 0.155), kMouth(0.34, 0.10, 0.09);
 
 void set(GLint location, const Vec3& v) {
     const Eigen::Vector3f f = v.cast<float>();
@@ -138,6 +138,8 @@ ShaderConstants Materials::constants_of(const Scene& scene, Material material, i
             constants.set("pupil_radius", ball.pupil_radius_m);
             constants.set("iris_depth", iris_depth_m_[index]);
             constants.set("iris_tone", linear_from_srgb(appearance_.iris_tone));
+            constants.set("skin_green", skin.y());
+            constants.set("age", appearance_.age);
             constants.set("separate_cornea", static_cast<bool>(separate_cornea_[index]));
             break;
         }
@@ -235,6 +237,9 @@ void Materials::tell_colours(const GlProgram& program, Material material, int ey
     glUniform1f(program.location("iris_radius"), static_cast<float>(ball.iris_radius_m));
     glUniform1f(program.location("pupil_radius"), static_cast<float>(ball.pupil_radius_m));
     glUniform1f(program.location("iris_depth"), static_cast<float>(iris_depth_m_[index]));
+    glUniform1f(program.location("skin_green"),
+                static_cast<float>(linear_from_srgb(appearance_.skin_tone).y()));
+    glUniform1f(program.location("age"), static_cast<float>(appearance_.age));
     set(program.location("iris_tone"), linear_from_srgb(appearance_.iris_tone));
 }
 

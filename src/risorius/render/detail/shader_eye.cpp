@@ -13,6 +13,8 @@ uniform float iris_radius;
 uniform float pupil_radius;
 uniform float iris_depth;   // height of the iris plane over the centre, m
 uniform vec3 iris_tone;     // linear
+uniform float skin_green;   // linear
+uniform float age;          // 0..1
 
 // Normal in the frame of the eye at q from its centre: a cornea curves with 1.31 times the radius of its iris and goes over into
 // the ball. Meshes have no, little or a coarse bulge.
@@ -48,7 +50,10 @@ vec3 eye_colour(vec3 q, vec3 hit, float caruncle, float gathered, out float is_i
 
     // Sclera: warm white, veined and redder towards the corners, bluish where it thins out over the iris' edge
     float far = smoothstep(1.10, 2.0, surface_r);
-    vec3 white = mix(vec3(0.765, 0.73, 0.69), vec3(0.70, 0.605, 0.55), far);
+    vec3 white = mix(vec3(0.58, 0.54, 0.495), vec3(0.51, 0.425, 0.37), far);
+    // Darker people have a darker conjunctiva; with the years it yellows.
+    white *= mix(vec3(0.84, 0.80, 0.74), vec3(1.0), smoothstep(0.02, 0.35, skin_green));
+    white *= mix(vec3(1.0), vec3(1.0, 0.97, 0.90), age);
     white *= mix(vec3(1.0), vec3(0.92, 0.46, 0.40), veins(q * 1000.0, far));
     white = mix(white, vec3(0.62, 0.30, 0.26), 0.9 * caruncle);
 
@@ -67,24 +72,27 @@ vec3 eye_colour(vec3 q, vec3 hit, float caruncle, float gathered, out float is_i
     // The sclera reaches over the iris' rim and shows it through.
     is_iris = ahead ? 1.0 - smoothstep(0.90, 1.10, r) : 0.0;
     vec3 albedo = mix(white, inner, is_iris);
+    // In old age a pale ring of fat lies in the rim of the cornea.
+    float arcus = smoothstep(0.60, 0.85, age) * smoothstep(0.88, 0.95, surface_r) * smoothstep(1.10, 1.03, surface_r);
+    albedo = mix(albedo, vec3(0.55, 0.57, 0.58), ahead ? 0.6 * arcus : 0.0);
     return albedo * mix(vec3(1.0), vec3(0.70, 0.74, 0.78), ahead ? smoothstep(1.24, 1.02, r) * (1.0 - is_iris) : 0.0);
 }
 )";
 
 constexpr const char* kWindow = R"(
 // The key as the eye mirrors it: photographers add a low lamp so that the catchlight stays clear of the upper lid.
-vec3 catchlight() { return normalize(key_direction.xyz - vec3(0.0, 0.32, 0.0)); }
+vec3 catchlight() { return normalize(key_direction.xyz - vec3(0.0, 0.22, 0.0)); }
 
 // A soft box mirrored in the tear film: higher than wide, with round corners, brightest above its middle, dimmer towards its
 // edges, which fall off over some degrees.
 float window_light(vec3 back, vec3 l) {
     vec3 right = normalize(vec3(l.z, 0.0, -l.x) + vec3(1e-4, 0.0, 0.0));
     float ahead = max(dot(back, l), 0.05);
-    vec2 at = vec2(dot(back, right), dot(back, cross(l, right))) / (ahead * vec2(0.20, 0.26));
+    vec2 at = vec2(dot(back, right), dot(back, cross(l, right))) / (ahead * vec2(0.27, 0.33));
     vec2 corner = max(abs(at) - 0.35, 0.0);
     float edge = length(corner) / 0.65;
     vec2 off = at - vec2(0.0, 0.25);
-    return smoothstep(1.20, 0.60, edge) * (0.62 - 0.34 * min(dot(off, off), 1.3));
+    return smoothstep(1.20, 0.60, edge) * (0.95 - 0.52 * min(dot(off, off), 1.3));
 }
 
 // The furrow around the cornea is too narrow to show a lamp of its own.
@@ -127,10 +135,10 @@ float lid_shade(vec3 p) {
     float y = dot(d, up);
     float below_upper = dot(lid_upper - lid_inner, up) * bow - y;
     float above_lower = y - dot(lid_lower - lid_inner, up) * bow;
-    float upper = smoothstep(-0.0006, 0.0042, below_upper);
+    float upper = smoothstep(0.0014, 0.0068, below_upper);
     float lower = smoothstep(-0.0010, 0.0016, above_lower);
     float corner = smoothstep(1.02, 0.60, abs(s));
-    return mix(1.0, (0.16 + 0.84 * upper) * (0.55 + 0.45 * lower) * (0.55 + 0.45 * corner), lids);
+    return mix(1.0, (0.26 + 0.74 * upper) * (0.55 + 0.45 * lower) * (0.45 + 0.55 * corner), lids);
 }
 
 void main() {

@@ -182,6 +182,7 @@ uniform vec3 bounce;      // albedo hereabouts
 uniform vec4 finish;      // roughness, reflectance straight on, share of it, layer of the mirror
 
 const vec3 kThroughLips = vec3(0.30, 0.055, 0.045);
+const vec3 kFromWalls = vec3(1.90, 1.45, 1.40);   // light deep in the mouth, over that which comes straight in
 
 // From the nearest point of the line of the mouth, of which `share` counts.
 vec3 from_lips(vec3 p, float share) {
@@ -194,8 +195,7 @@ vec3 from_lips(vec3 p, float share) {
 float seen_through_lips(vec3 p) {
     vec3 d = from_lips(p, 0.75);
     float share = mouth_centre.w / (mouth_centre.w + 3.1416 * dot(d, d) + 1e-9);
-    // The deeper, the more of the gap is hidden by cheeks, teeth and palate.
-    return share * sqrt(share);
+    return share;
 }
 
 void main() {
@@ -218,10 +218,14 @@ void main() {
     // Indirect Occlusion).
     vec3 open = max(vec3(sky_seen), ((sky_seen * (2.0404 * bounce - 0.3324) + (0.6417 - 4.7951 * bounce)) * sky_seen +
                                      (2.7552 * bounce + 0.6903)) * sky_seen);
-    // Lips let red light through: the line between them is not black.
+    // Walls, palate and cheeks pass light on to one another, red light most.
+    open *= mix(vec3(1.0), mix(kFromWalls, vec3(1.0), sky_seen), inside);
+    // Lips let red light through: the line between them is not black. Where they are shut, it also comes from the skin around.
     vec3 behind = from_lips(in_position, 1.0);
     behind.z *= 0.65;   // the corners lie back
-    open += inside * kThroughLips * exp(-dot(behind, behind) * 1.6e4);
+    float apart = dot(behind, behind);
+    float shut = smoothstep(1.2e-4, 0.0, mouth_centre.w);
+    open += inside * kThroughLips * (exp(-apart * 1.6e4) + shut * 1.1 * (0.1 + min(2.0 * bounce.r, 1.0)) * exp(-apart * 8e3));
     soft = open * (fill_card.rgb * scattered(dot(n, fill_direction.xyz), w) + ambient(n));
     soft += behind_seen * rim_card.rgb * scattered(dot(n, rim_direction.xyz), w);
     float nv = clamp(dot(n, v), 0.0, 1.0);

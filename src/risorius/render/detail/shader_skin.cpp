@@ -55,7 +55,7 @@ void main() {
     float turned = 1.0 + dot(m - n, 0.6 * fill_direction.xyz + vec3(0.0, 0.35, 0.0));
     vec3 diffuse = (key * kept + soft * (open * turned)) * mix(kHollow, vec3(1.0), hollow);
     diffuse += kThroughWalls * (4.0 * hollow * (1.0 - hollow));
-    gloss += soft_gloss * (open * open * turned * turned);
+    gloss += soft_gloss * (open * open * turned * turned * hollow * hollow);
     vec3 skin = seen_through(albedo * diffuse, diffuse, albedo, oil, 1.0 - clamp(dot(n, v), 0.0, 1.0), sky_seen);
     colour = vec4(shown(skin + gloss * kGloss * (0.52 + 0.80 * oil) * smoothstep(-0.03, 0.15, oil)), told());
 }

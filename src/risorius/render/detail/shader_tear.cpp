@@ -34,8 +34,8 @@ in float lit;
 out vec4 colour;
 void main() {
     vec3 n = normalize(normal), v = normalize(camera.xyz - position);
-    vec3 gloss = key_card.rgb * lit * min(1.5 * glint(n, v, key_direction.xyz, 0.36, 0.05), 1.0);
-    gloss += fill_card.rgb * min(1.5 * glint(n, v, fill_direction.xyz, 0.36, 0.05), 1.0);
+    vec3 gloss = key_card.rgb * lit * min(2.2 * glint(n, v, key_direction.xyz, 0.36, 0.05), 1.0);
+    gloss += fill_card.rgb * min(2.2 * glint(n, v, fill_direction.xyz, 0.36, 0.05), 1.0);
     gloss += mirrored_share(clamp(dot(n, v), 0.0, 1.0), 0.10, 0.03) * mirrored(reflect(-v, n), 0.0);
     // Straight through it one sees the lid and the eye, a little darker.
     colour = vec4(shown(gloss * share), 0.18 * share);

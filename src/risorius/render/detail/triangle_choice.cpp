@@ -9,8 +9,7 @@ namespace {
 bool may_hide(const Batch& batch) {
     return batch.texture < 0 &&
            (batch.material == Material::kEye || batch.material == Material::kTeeth ||
-            batch.material == Material::kGums || batch.material == Material::kTongue ||
-            batch.material == Material::kMouth);
+            batch.material == Material::kGums || batch.material == Material::kTongue);
 }
 
 /// Replaces each cell of a square by the maximum over the cells up to `by` away.
