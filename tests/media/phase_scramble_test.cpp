@@ -93,9 +93,10 @@ TEST(PhaseScramble, KeepsWhatIsOutsideOfARegionAndTheLevelInside) {
     scrambler.scramble(after, weights);
     EXPECT_LT(scrambler.octave_error(), 0.02);
     for (std::size_t i = 0; i < weights.size(); ++i)
-        if (weights[i] == 0)
+        if (weights[i] == 0) {
             EXPECT_TRUE(
                 std::equal(&before.rgba[4 * i], &before.rgba[4 * i + 4], &after.rgba[4 * i]));
+        }
     LuminanceSums then, now;
     then.add(before, weights);
     now.add(after, weights);

@@ -178,8 +178,12 @@ TEST_F(Laboratory, ClipsThatShowNoExpressionHaveNoRightAnswer) {
         const bool none = line.find("Neutral,") != std::string::npos ||
                           line.find("PhaseScrambled,") != std::string::npos;
         without += none;
-        if (none) EXPECT_NE(line.find(",,,happiness"), line.find(",,,fear")) << line;
-        if (line.find("fear0p15,") == 0) EXPECT_NE(line.find(",f,"), std::string::npos) << line;
+        if (none) {
+            EXPECT_NE(line.find(",,,happiness"), line.find(",,,fear")) << line;
+        }
+        if (line.find("fear0p15,") == 0) {
+            EXPECT_NE(line.find(",f,"), std::string::npos) << line;
+        }
     }
     EXPECT_EQ(without, 16);
 }
