@@ -147,16 +147,6 @@ std::map<std::string, UnitPictures> draw_units(const UnitReadings& readings, fac
     return out;
 }
 
-// A monitor for the part from `from` to `to` of the work.
-ProgressMonitor part_of(const ProgressMonitor& monitor, double from, double to) {
-    ProgressMonitor part = monitor;
-    if (monitor.progress)
-        part.progress = [&monitor, from, to](double fraction, const std::string& what) {
-            monitor.progress(from + (to - from) * fraction, what);
-        };
-    return part;
-}
-
 void write_report(const UnitReadings& readings, const UnitOptions& options,
                   const scene::RigFiles& files, face::Face& face, const face::FacePose& neutral,
                   const fs::path& folder, double from, const ProgressMonitor& monitor) {
@@ -168,13 +158,13 @@ void write_report(const UnitReadings& readings, const UnitOptions& options,
         const double middle = options.kit ? from + 0.2 * (1 - from) : 1;
         if (options.pictures)
             pictures = draw_units(readings, face, neutral, scene, files.rig.name, folder, written,
-                                  part_of(monitor, from, middle));
+                                  monitor.subrange(from, middle));
         if (options.kit) {
             std::vector<std::string> units;
             for (const scene::UnitReading& one : readings.units) units.push_back(one.unit);
             for (const std::string& file : write_coder_kit(
                      face, files.rig, scene, kit_clips(files.rig.facs, units, options.seed), folder,
-                     part_of(monitor, middle, 1)))
+                     monitor.subrange(middle, 1)))
                 written.push_back(file);
         }
     }
