@@ -118,6 +118,88 @@ TEST(MorphModel, IsReadWithPicturesInIt) {
     EXPECT_EQ(back.targets[0].delta, two_quads().targets[0].delta);
 }
 
+/// The quads as a hierarchy: a face that two joints carry, and an eye below the second joint that turns.
+MorphModel jointed_quads() {
+    MorphModel model = two_quads();
+    model.nodes = {{.name = "Face"},
+                   {.name = "quads", .extras = {{"unit", "m"}}},
+                   {.name = "Neck", .parent = 1},
+                   {.name = "Head", .parent = 1, .place = {1, 0, 0}},
+                   {.name = "Eye", .parent = 3, .place = {1, 0.5, 0}}};
+    model.nodes[4].animate_shapes = false;
+    model.parts[1].node = 4;
+    model.pictures = {{"dots", "image/png", "\x89PNG not a whole one"}};
+    model.parts[1].picture = 0;
+    model.skin = {0, {2, 3}, Eigen::MatrixXd::Zero(7, 2)};
+    for (long v = 0; v < 7; ++v) model.skin.weights.row(v) << 1 - v / 10.0, v / 10.0;
+    NodeMotion turn{3, {Eigen::Quaterniond::Identity(), {0, 0, 1, 0}}, {{0, 0, 0}, {0, 0.5, 0}}};
+    model.animations[0].motions = {turn};
+    return model;
+}
+
+TEST(MorphModel, NodesJointsAndPicturesAreWrittenAndReadBack) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "quads.glb";
+    for (const bool whole_numbers : {false, true}) {
+        MorphModel model = jointed_quads();
+        model.whole_numbers = whole_numbers;
+        const std::string bytes = glb_bytes(model);
+        std::ofstream(file, std::ios::binary) << bytes;
+        const MorphModel back = read_glb(file);
+        ASSERT_EQ(back.vertices.rows(), 6);
+        EXPECT_LT((back.vertices - model.vertices.topRows(6)).cwiseAbs().maxCoeff(), 1e-6);
+        ASSERT_EQ(back.targets.size(), 3u);
+        for (std::size_t t = 0; t < 3; ++t) {
+            EXPECT_EQ(back.targets[t].name, model.targets[t].name);
+            ASSERT_EQ(back.targets[t].vertex, model.targets[t].vertex);
+            if (model.targets[t].vertex.empty()) continue;
+            EXPECT_LT((back.targets[t].delta - model.targets[t].delta).cwiseAbs().maxCoeff(),
+                      whole_numbers ? 1e-5 : 1e-12);
+        }
+        EXPECT_EQ(back.extras, model.extras);
+        ASSERT_EQ(back.animations.size(), 1u);
+        EXPECT_EQ(back.animations[0].weights, model.animations[0].weights);
+
+        const auto [json, binary] = chunks(bytes);
+        // The first mesh has all names, others those that move them; what moves nothing costs nothing there.
+        EXPECT_EQ(json["meshes"][0]["extras"]["targetNames"], Json({"lift", "nothing", "push"}));
+        EXPECT_EQ(json["meshes"][1]["extras"]["targetNames"], Json({"lift", "push"}));
+        // Places are relative to the parent, and joints lead back to the vertices.
+        EXPECT_EQ(json["nodes"][4]["translation"], Json({0.0, 0.5, 0.0}));
+        EXPECT_EQ(json["nodes"][3]["children"], Json({4}));
+        EXPECT_EQ(json["scenes"][0]["nodes"], Json({0, 1}));
+        EXPECT_EQ(json["nodes"][1]["extras"]["unit"], "m");
+        EXPECT_EQ(json["skins"][0]["joints"], Json({2, 3}));
+        EXPECT_EQ(json["nodes"][0]["skin"], 0);
+        EXPECT_FALSE(json["nodes"][0].contains("scale"));
+        EXPECT_EQ(json["nodes"][4].contains("scale"), whole_numbers);
+        // Shares of a vertex in 65535ths that sum to one, and no joint without a share
+        const Json& face = json["meshes"][0]["primitives"][0]["attributes"];
+        const auto start = [&](const char* name) {
+            const Json& accessor = json["accessors"][face[name].get<std::size_t>()];
+            return json["bufferViews"][accessor["bufferView"].get<std::size_t>()].value(
+                "byteOffset", 0u);
+        };
+        for (std::size_t v = 0; v < 4; ++v) {
+            std::array<std::uint16_t, 4> shares{};
+            std::array<std::uint8_t, 4> joints{};
+            std::memcpy(shares.data(), binary.data() + start("WEIGHTS_0") + 8 * v, 8);
+            std::memcpy(joints.data(), binary.data() + start("JOINTS_0") + 4 * v, 4);
+            EXPECT_EQ(shares[0] + shares[1] + shares[2] + shares[3], 65535);
+            for (std::size_t k = 0; k < 4; ++k) EXPECT_TRUE(shares[k] > 0 || joints[k] == 0);
+        }
+        // Weights of the face, turn and shift of the head, and nothing that moves the eye a second time
+        std::vector<std::string> moved;
+        for (const Json& channel : json["animations"][0]["channels"])
+            moved.push_back(channel["target"]["path"].get<std::string>() +
+                            channel["target"]["node"].dump());
+        EXPECT_EQ(moved, (std::vector<std::string>{"weights0", "rotation3", "translation3"}));
+        EXPECT_EQ(json["images"][0]["mimeType"], "image/png");
+        EXPECT_EQ(json["materials"][1]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0);
+        EXPECT_NE(binary.find("\x89PNG not a whole one"), std::string::npos);
+    }
+}
+
 TEST(MorphModel, WholeNumbersAreWithinHalfAStepAndWhatTheirExtensionAsksFor) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "quads.glb";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures that a mesh's materials name, from an OBJ with its MTL to pixels.
-#include "risorius/scene/detail/texture_picture.h"
+#include "risorius/scene/texture_picture.h"
 
 #include <gtest/gtest.h>
 

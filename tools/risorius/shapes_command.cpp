@@ -154,6 +154,12 @@ void add_shapes(CLI::App& app) {
         ->add_flag_callback("--floats",
                             [] { std::fprintf(stderr, "note: --floats is the default now\n"); })
         ->group("");  // of earlier versions
+    command
+        ->add_option("--texture", options.texture_px,
+                     "Side of the picture of the skin in shapes.glb, in pixels (256 to 4096); "
+                     "those of the other parts have half of it. Parts with pictures of the mesh "
+                     "keep those. 0: plain colours")
+        ->capture_default_str();
     command->add_flag("--no-pictures", arguments->no_pictures,
                       "Write the accuracy report without pictures");
     command->add_option(

@@ -8,6 +8,7 @@
 #include "risorius/blendshapes/detail/random_weights.h"
 #include "risorius/blendshapes/detail/shape_files.h"
 #include "risorius/blendshapes/detail/shapes_page.h"
+#include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/face/diagnostics.h"
@@ -224,6 +225,11 @@ Json ShapesReport::json() const {
 ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& monitor) {
     for (const std::string& format : options.formats)
         index_of_name(option_name("formats"), format, shape_formats());
+    constexpr int kMin_px = 256, kMax_px = 4096;
+    if (options.texture_px != 0 && (options.texture_px < kMin_px || options.texture_px > kMax_px))
+        throw Error(option_name("texture_px"),
+                    "0 or " + std::to_string(kMin_px) + ".." + std::to_string(kMax_px),
+                    std::to_string(options.texture_px));
     const scene::RigFiles files = scene::read_rig_files(options.rig, monitor.stopped);
     const ShapeSet set = shape_set(files.rig, options.set, options.only, files.place());
     report::AtomicFolder folder(options.out);
@@ -276,8 +282,8 @@ ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& mo
     };
     if (wants(options, "glb")) {
         io::MorphModel model =
-            morph_model(files, head, report.shapes, set.name, report.correctives.rig,
-                        report.animation ? &*report.animation : nullptr);
+            morph_model(files, solver.face(), report.shapes, set.name, report.correctives.rig,
+                        report.animation ? &*report.animation : nullptr, options.texture_px);
         model.whole_numbers = options.compact;
         report::write_text(folder.partial() / "shapes.glb", io::glb_bytes(model));
         keep({"shapes.glb"});

@@ -26,6 +26,9 @@ struct ShapesOptions {
     std::vector<std::string> formats = {};  ///< names of shape_formats(); empty: all but "cache"
     /// True: the .glb holds displacements as 16-bit integers, with a scale of its node, instead of floats in metres
     bool compact = false;
+    /// Side of the picture of the skin in the .glb, 256 to 4096; those of the other parts have half of it. 0: plain colours.
+    /// Parts with pictures of the mesh keep those.
+    int texture_px = 1024;
     bool pictures = true;
     bool correctives = true;
     /// Values that replace those of correctives_of_set().

@@ -20,6 +20,12 @@ const Triangles& Surfaces::simulated_skin() const { return face_->shell.fine; }
 
 const WrinkleLines& Surfaces::wrinkle_lines() const { return face_->poser->lines(); }
 
+const std::vector<double>& Surfaces::head_fractions() const {
+    return face_->poser->followers().head_fractions();
+}
+
+Vec3 Surfaces::head_pivot() const { return face_->poser->followers().neck().pivot(); }
+
 FacePose Surfaces::posed(Points vertices, const track::Drive& drive) const {
     return face_->poser->posed(std::move(vertices), face_->complete(drive),
                                face_->driven_jaw.wanted(drive));

@@ -4,6 +4,8 @@
 /// other than the simulation has moved.
 #pragma once
 
+#include <vector>
+
 #include "risorius/core/types.h"
 #include "risorius/face/muscle/detail/muscle_surface.h"
 #include "risorius/face/skin/detail/face_pose.h"
@@ -28,6 +30,11 @@ class Surfaces {
     const Triangles& simulated_skin() const;
     /// Returns the pattern of wrinkle lines that FacePose::fold_depth refers to. It is empty when the rig has none.
     const WrinkleLines& wrinkle_lines() const;
+
+    /// Returns the fraction of the motion of the head that each vertex of the mesh follows: 1 above the jaw line, 0 at the base of
+    /// the neck. It turns by this fraction about the pivot, the atlanto-occipital joint (m, head frame).
+    const std::vector<double>& head_fractions() const;
+    Vec3 head_pivot() const;
 
     /// Makes a pose from vertices, V x 3, m, in the head frame, that something other than the simulation has moved. The eyes, the jaw
     /// and the motion of the head are those of the drive.

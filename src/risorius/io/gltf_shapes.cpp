@@ -5,7 +5,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/io/detail/gltf_file.h"
-#include "risorius/io/detail/gltf_mesh.h"
+#include "risorius/io/detail/gltf_nodes.h"
 #include "risorius/io/detail/mesh_limits.h"
 
 namespace risorius::io {
@@ -15,44 +15,14 @@ namespace {
 using detail::GltfFile;
 using Matrix4 = Eigen::Matrix4d;
 
-/// Where each node is: the transforms from the root down to it.
-std::vector<Matrix4> places_of(const GltfFile& from) {
-    const std::vector<JsonCursor>& nodes = from.list("nodes");
-    std::vector<std::size_t> parent(nodes.size(), nodes.size());
-    for (std::size_t n = 0; n < nodes.size(); ++n)
-        if (const auto children = nodes[n].find("children"))
-            for (const JsonCursor& reference : children->items())
-                parent[static_cast<std::size_t>(&from.item("nodes", reference) - nodes.data())] = n;
-    std::vector<Matrix4> own, out;
-    for (const JsonCursor& node : nodes) own.push_back(detail::transform_of(node));
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-        Matrix4 place = own[n];
-        std::size_t depth = 0;
-        for (std::size_t up = parent[n]; up < nodes.size(); up = parent[up]) {
-            if (++depth > nodes.size())
-                nodes[n].fail("a node that is not inside of itself", "one that is");
-            place = own[up] * place;
-        }
-        out.push_back(place);
-    }
-    return out;
-}
-
 class ShapesOfGltf {
   public:
     explicit ShapesOfGltf(const std::filesystem::path& file)
         : file_(file), from_(file, "a glTF file") {}
 
     GltfShapes read() {
-        const std::vector<Matrix4> places = places_of(from_);
-        const std::vector<JsonCursor>& nodes = from_.list("nodes");
-        for (std::size_t n = 0; n < nodes.size(); ++n)
-            if (const auto mesh = nodes[n].find("mesh")) {
-                // A node with a skin lies where its joints are.
-                const Matrix4 place =
-                    nodes[n].has("skin") ? Matrix4(Matrix4::Identity()) : places[n];
-                add_mesh(from_.item("meshes", *mesh), place);
-            }
+        for (const detail::PlacedMesh& placed : detail::placed_meshes(from_))
+            add_mesh(placed.mesh, placed.place);
         if (out_.targets.empty())
             throw Error(file_.string(), "blend shapes with names (extras.targetNames)", "none");
         out_.positions.resize(static_cast<long>(positions_.size()), 3);

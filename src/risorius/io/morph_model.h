@@ -2,14 +2,14 @@
 /// \file
 /// Writes and reads a mesh with blend shapes as a binary glTF 2.0 file (.glb), for three.js, Blender, Unity and others.
 ///
-/// Coordinates are metres, y is up and the face looks along +z, as glTF requires. Every part is a primitive of one mesh. It has
-/// its own material and only the vertices it needs, in the order of the mesh; the attribute _VERTEX has their indices in the
-/// mesh.
+/// Coordinates are metres, y is up and the face looks along +z, as glTF requires. Every node with parts has a mesh of its own,
+/// and every part is a primitive of it, with a material and only the vertices it needs, in the order of the mesh; the attribute
+/// _VERTEX has their indices in the mesh. Vertices lie around the place of their node.
 ///
 /// Blend shapes are morph targets of positions and normals. They are stored where they are not zero (sparse accessors), and
-/// their names are in the mesh's extras.targetNames. On request, positions are 16-bit integers, which the scale of the node
-/// converts to metres (KHR_mesh_quantization). They are not "normalized" integers, because three.js from r145 to r168 reads
-/// those wrongly in sparse accessors. Normals are floats.
+/// their names are in the meshes' extras.targetNames. The first mesh has all of them, the others those that move them. On
+/// request, positions are 16-bit integers, which the scale of the node converts to metres (KHR_mesh_quantization). They are not
+/// "normalized" integers, because three.js from r145 to r168 reads those wrongly in sparse accessors. Normals are floats.
 ///
 /// Sources: glTF 2.0 specification, Khronos 2021, sections 3.6.2.3 and 3.7.2.2; KHR_mesh_quantization, Khronos 2020; three.js
 /// pull requests 22874 and 29330.
@@ -31,9 +31,17 @@ struct MorphTarget {
     Points delta;             ///< one row per entry of `vertex`; displacement at weight 1, m
 };
 
+/// A picture file of a format that glTF knows.
+struct MorphPicture {
+    std::string name;
+    std::string mime_type;  ///< "image/png" or "image/jpeg"
+    std::string bytes;
+};
+
 /// A part with one material.
 struct MorphPart {
-    std::string name;
+    std::string name;  ///< of its material
+    int node = 0;      ///< index in MorphModel::nodes
     /// F x 3, indices of the model's vertices, counter-clockwise from outside.
     Triangles triangles;
     TexCoords texcoords;   ///< 3F x 2, one row per corner, or no rows; v is up
@@ -42,6 +50,31 @@ struct MorphPart {
     double roughness = 0.6;
     double opacity = 1;
     bool see_both_sides = false;
+    int picture = -1;           ///< index in MorphModel::pictures: multiplies the colour; -1: none
+    bool picture_cuts = false;  ///< the alpha of the picture is the opacity
+};
+
+/// A node of the hierarchy. It is a joint when the skin names it.
+struct MorphNode {
+    std::string name;
+    int parent = -1;             ///< index of a node before it; -1: the root of the file
+    Vec3 place = Vec3::Zero();   ///< of its origin at rest, head frame, m
+    Json extras = {};            ///< null or an object
+    bool animate_shapes = true;  ///< false: animations leave the weights of its mesh at 0
+};
+
+/// The vertices of one node, carried by joints: the mean of the places to which the joints carry a vertex.
+struct MorphSkin {
+    int node = -1;  ///< its parent is -1, so that nothing else moves it; -1: there is no skin
+    std::vector<int> joints;  ///< indices of nodes, at most four
+    Eigen::MatrixXd weights;  ///< V x joints, at the model's vertices; rows sum to 1
+};
+
+/// The turn of a node and its shift from its place at rest, linear between frames.
+struct NodeMotion {
+    int node = 0;
+    std::vector<Eigen::Quaterniond> turn;  ///< one per frame
+    std::vector<Vec3> shift;               ///< one per frame, m; or none
 };
 
 /// Weights over time, linear between frames.
@@ -49,6 +82,7 @@ struct MorphAnimation {
     std::string name;
     double fps = 60;
     Eigen::MatrixXf weights;  ///< frames x targets
+    std::vector<NodeMotion> motions = {};
 };
 
 /// A mesh with parts, blend shapes and animations.
@@ -57,10 +91,13 @@ struct MorphModel {
     Points vertices;  ///< V x 3, m, head frame
     /// V; for each vertex, the vertex at the same position with which it shares its normal; empty: no vertices share normals.
     std::vector<int> stands_for;
+    std::vector<MorphNode> nodes;  ///< empty: one node at the origin with the name of the model
     std::vector<MorphPart> parts;
+    std::vector<MorphPicture> pictures;
+    MorphSkin skin;
     std::vector<MorphTarget> targets;
     std::vector<MorphAnimation> animations;
-    Json extras;  ///< an object; its keys are written next to targetNames
+    Json extras;  ///< an object; its keys are written next to targetNames of the first mesh
     /// true: displacements are integer multiples of 1/32767 of the maximum. false: floats, for readers that do not know
     /// KHR_mesh_quantization.
     bool whole_numbers = false;
@@ -69,8 +106,8 @@ struct MorphModel {
 /// Returns the bytes of the file. They depend only on the model.
 std::string glb_bytes(const MorphModel& model);
 
-/// Reads a file that glb_bytes() wrote: vertices, targets, extras and animations, but of the parts only the triangles. Throws
-/// Error for other files.
+/// Reads a file that glb_bytes() wrote: vertices, targets, extras and animated weights, but of the parts only the name and the
+/// triangles, and no nodes. Throws Error for other files.
 MorphModel read_glb(const std::filesystem::path& file);
 
 }  // namespace risorius::io

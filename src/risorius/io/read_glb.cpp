@@ -8,6 +8,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/io/detail/gltf_file.h"
+#include "risorius/io/detail/gltf_nodes.h"
 #include "risorius/io/detail/mesh_limits.h"
 #include "risorius/io/morph_model.h"
 
@@ -16,20 +17,6 @@ namespace risorius::io {
 namespace {
 
 using detail::GltfFile;
-
-// Scale of the one node that shows the mesh, m. It is the same along every axis.
-double unit_of(const GltfFile& from) {
-    double unit_m = 1;
-    for (const JsonCursor& node : from.list("nodes")) {
-        const auto mesh = node.find("mesh"), scale = node.find("scale");
-        if (!mesh || !scale || mesh->integer(0, 1) != 0) continue;
-        const Vec3 along = scale->vec3();
-        unit_m = along.x();
-        if (!(unit_m > 0) || along.y() != unit_m || along.z() != unit_m)
-            scale->fail("one scale along all axes");
-    }
-    return unit_m;
-}
 
 // Writes the displacements of each target, in the order of vertices.
 void write_targets(const std::vector<std::map<int, Vec3>>& deltas, MorphModel& out) {
@@ -87,8 +74,10 @@ std::vector<int> vertex_numbers(const GltfFile& from, const JsonCursor& accessor
     return out;
 }
 
-// Adds a primitive to the one list of vertices. Those at seams occur several times, at the same position.
-void add_primitive(const GltfFile& from, const JsonCursor& primitive, double unit_m,
+// Adds a primitive to the one list of vertices. Those at seams occur several times, at the same position. `of_target`: index in
+// `deltas` of each target.
+void add_primitive(const GltfFile& from, const JsonCursor& primitive, const Eigen::Matrix4d& place,
+                   const std::vector<std::size_t>& of_target,
                    std::vector<std::map<int, Vec3>>& deltas, MorphModel& out) {
     const JsonCursor attributes = primitive.at("attributes");
     if (!attributes.has("_VERTEX") || !attributes.has("POSITION"))
@@ -96,8 +85,8 @@ void add_primitive(const GltfFile& from, const JsonCursor& primitive, double uni
                         "neither or one");
     const auto named = primitive.find("targets");
     const std::vector<JsonCursor> targets = named ? named->items() : std::vector<JsonCursor>{};
-    if (targets.size() != deltas.size())
-        primitive.fail("a target for each of its " + std::to_string(deltas.size()) + " names",
+    if (targets.size() != of_target.size())
+        primitive.fail("a target for each of its " + std::to_string(of_target.size()) + " names",
                        std::to_string(targets.size()));
     const JsonCursor& positions = from.item("accessors", attributes.at("POSITION"));
     const detail::Rows at = from.rows(positions, 3);
@@ -111,7 +100,9 @@ void add_primitive(const GltfFile& from, const JsonCursor& primitive, double uni
         out.vertices.bottomRows(max - before).setZero();
     }
     for (long i = 0; i < at.rows(); ++i)
-        out.vertices.row(vertex[static_cast<std::size_t>(i)]) = unit_m * at.row(i);
+        out.vertices.row(vertex[static_cast<std::size_t>(i)]) =
+            (place.topLeftCorner<3, 3>() * at.row(i).transpose() + place.topRightCorner<3, 1>())
+                .transpose();
     MorphPart part;
     if (const auto material = primitive.find("material"))
         if (const auto name = from.item("materials", *material).find("name"))
@@ -138,41 +129,64 @@ void add_primitive(const GltfFile& from, const JsonCursor& primitive, double uni
         if (!delta.values.allFinite()) accessor.fail("finite displacements", "others");
         for (std::size_t i = 0; i < delta.row.size(); ++i)
             if (const Vec3 by = delta.values.row(static_cast<long>(i)).transpose(); !by.isZero(0.0))
-                deltas[t][vertex[delta.row[i]]] = unit_m * by;
+                deltas[of_target[t]][vertex[delta.row[i]]] = place.topLeftCorner<3, 3>() * by;
     }
+}
+
+// The names of a mesh's targets.
+std::vector<std::string> names_of_targets(const JsonCursor& mesh) {
+    std::vector<std::string> names;
+    if (const auto extras = mesh.find("extras"); extras && extras->is_object())
+        if (const auto listed = extras->find("targetNames"))
+            for (const JsonCursor& name : listed->items()) names.push_back(name.string());
+    return names;
 }
 
 MorphModel read_model(const std::filesystem::path& file) {
     const GltfFile from(file, "a binary glTF file", /*binary_only=*/true);
-    const auto& meshes = from.list("meshes");
-    if (meshes.size() != 1)
-        throw Error(file.string(), "one mesh with blend shapes, as risorius shapes writes it",
-                    std::to_string(meshes.size()) + " meshes");
-    const JsonCursor& mesh = meshes[0];
-    const double unit_m = unit_of(from);
-
+    const std::vector<detail::PlacedMesh> meshes = detail::placed_meshes(from);
+    if (meshes.empty())
+        throw Error(file.string(), "a mesh with blend shapes, as risorius shapes writes it",
+                    "no mesh");
+    // The first mesh has the names of all shapes.
+    const JsonCursor& first = meshes[0].mesh;
     MorphModel out;
-    if (const auto name = mesh.find("name")) out.name = name->string();
-    const auto extras = mesh.find("extras");
+    if (const auto name = first.find("name")) out.name = name->string();
+    const auto extras = first.find("extras");
     if (!extras || !extras->is_object() || !extras->has("targetNames"))
-        mesh.fail("the names of its shapes in the mesh's extras", "none");
+        first.fail("the names of its shapes in the mesh's extras", "none");
     out.extras = extras->json();
-    for (const JsonCursor& name : extras->at("targetNames").items())
-        out.targets.push_back({name.string(), {}, {}});
     out.extras.erase("targetNames");
-
-    std::vector<std::map<int, Vec3>> deltas(out.targets.size());
-    for (const JsonCursor& primitive : mesh.at("primitives").items())
-        add_primitive(from, primitive, unit_m, deltas, out);
-    write_targets(deltas, out);
-    for (const JsonCursor& animation : from.list("animations")) {
-        const std::vector<JsonCursor> channels = animation.at("channels").items();
-        if (channels.empty() || out.targets.empty()) continue;
-        const auto path = channels[0].at("target").find("path");
-        if (path && path->string() == "weights")
-            out.animations.push_back(
-                read_animation(from, animation, channels[0], out.targets.size()));
+    std::map<std::string, std::size_t> index;
+    for (const std::string& name : names_of_targets(first)) {
+        index.emplace(name, out.targets.size());
+        out.targets.push_back({name, {}, {}});
     }
+    std::vector<std::map<int, Vec3>> deltas(out.targets.size());
+    for (const detail::PlacedMesh& placed : meshes) {
+        std::vector<std::size_t> of_target;
+        for (const std::string& name : names_of_targets(placed.mesh)) {
+            const auto known = index.find(name);
+            if (known == index.end())
+                placed.mesh.at("extras")
+                    .at("targetNames")
+                    .fail("names that the first mesh has", "\"" + name + "\"");
+            of_target.push_back(known->second);
+        }
+        for (const JsonCursor& primitive : placed.mesh.at("primitives").items())
+            add_primitive(from, primitive, placed.place, of_target, deltas, out);
+    }
+    write_targets(deltas, out);
+    for (const JsonCursor& animation : from.list("animations"))
+        for (const JsonCursor& channel : animation.at("channels").items()) {
+            const JsonCursor target = channel.at("target");
+            const auto path = target.find("path"), node = target.find("node");
+            if (out.targets.empty() || !path || path->string() != "weights" || !node) continue;
+            if (from.item("nodes", *node).place() != from.list("nodes")[meshes[0].node].place())
+                continue;
+            out.animations.push_back(read_animation(from, animation, channel, out.targets.size()));
+            break;
+        }
     return out;
 }
 

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Writes binary glTF (tinygltf): parts with the vertices they need, morph targets as sparse accessors, animated weights.
+// Writes binary glTF (tinygltf): nodes, parts with the vertices they need, morph targets as sparse accessors, animations.
 #include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <type_traits>
 #include <utility>
 
 #include "risorius/core/error.h"
+#include "risorius/io/detail/gltf_packer.h"
 #include "risorius/io/morph_model.h"
 
 namespace risorius::io {
@@ -22,7 +20,8 @@ namespace {
 constexpr double kNoTurn = 0.035;    // change of a normal at weight 1; two degrees are not visible
 constexpr double kMaxWhole = 32767;  // of 16 bits
 
-using Floats = std::vector<float>;
+using detail::Floats;
+using Packer = detail::GltfPacker;
 
 Points vertex_normals(const MorphModel& model, const Points& vertices) {
     Points normals = Points::Zero(vertices.rows(), 3);
@@ -73,106 +72,6 @@ tinygltf::Value value_of(const Json& json) {
     if (json.is_number()) return Value(json.get<double>());
     return {};
 }
-
-// The one binary buffer of the file, and the accessors that refer to it.
-class Packer {
-  public:
-    explicit Packer(tinygltf::Model& model) : model_(model) { model_.buffers.emplace_back(); }
-
-    /// Makes the zeros under sparse accessors of up to `count` vectors. Some readers (Godot 3) take an accessor without a view
-    /// for one of view 0. The stride lets vectors of 16-bit integers use the same view.
-    void make_zeros(unsigned count) {
-        zeros_ =
-            view(Floats(3 * static_cast<std::size_t>(count), 0.f), TINYGLTF_TARGET_ARRAY_BUFFER);
-        model_.bufferViews.back().byteStride = 3 * sizeof(float);
-    }
-
-    int floats(const Floats& values, int type, bool with_range, int target = 0) {
-        tinygltf::Accessor accessor = described(values, type, with_range);
-        accessor.bufferView = view(values, target);
-        return add(accessor);
-    }
-    int indices(const std::vector<unsigned>& values, unsigned vertices) {
-        tinygltf::Accessor accessor;
-        accessor.type = TINYGLTF_TYPE_SCALAR;
-        accessor.count = values.size();
-        std::tie(accessor.bufferView, accessor.componentType) =
-            index_view(values, vertices, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-        return add(accessor);
-    }
-    /// Writes `count` vectors that are zero except for the listed ones. At least one is listed, because some readers ignore
-    /// accessors without numbers.
-    template <typename T>
-    int sparse(std::vector<unsigned> at, std::vector<T> values, unsigned count) {
-        if (at.empty()) {
-            at = {0};
-            values.assign(3, T{0});
-        }
-        std::vector<T> all = values;
-        if (at.size() < count) all.insert(all.end(), 3, T{0});
-        tinygltf::Accessor accessor = described(all, TINYGLTF_TYPE_VEC3, true);
-        accessor.count = count;
-        accessor.bufferView = zeros_;
-        accessor.sparse.isSparse = true;
-        accessor.sparse.count = static_cast<int>(at.size());
-        std::tie(accessor.sparse.indices.bufferView, accessor.sparse.indices.componentType) =
-            index_view(at, count, 0);
-        accessor.sparse.indices.byteOffset = 0;
-        accessor.sparse.values.bufferView = view(values, 0);
-        accessor.sparse.values.byteOffset = 0;
-        return add(accessor);
-    }
-
-  private:
-    int add(const tinygltf::Accessor& accessor) {
-        model_.accessors.push_back(accessor);
-        return static_cast<int>(model_.accessors.size()) - 1;
-    }
-    template <typename T>
-    static tinygltf::Accessor described(const std::vector<T>& values, int type, bool with_range) {
-        const auto width =
-            static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type)));
-        tinygltf::Accessor accessor;
-        accessor.componentType = std::is_same_v<T, short> ? TINYGLTF_COMPONENT_TYPE_SHORT
-                                                          : TINYGLTF_COMPONENT_TYPE_FLOAT;
-        accessor.type = type;
-        accessor.count = values.size() / width;
-        if (!with_range) return accessor;
-        accessor.minValues.assign(width, std::numeric_limits<double>::infinity());
-        accessor.maxValues.assign(width, -std::numeric_limits<double>::infinity());
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            accessor.minValues[i % width] =
-                std::min(accessor.minValues[i % width], static_cast<double>(values[i]));
-            accessor.maxValues[i % width] =
-                std::max(accessor.maxValues[i % width], static_cast<double>(values[i]));
-        }
-        return accessor;
-    }
-    template <typename T>
-    int view(const std::vector<T>& values, int target) {
-        std::vector<unsigned char>& bytes = model_.buffers[0].data;
-        bytes.resize((bytes.size() + 3) / 4 * 4, 0);
-        tinygltf::BufferView out;
-        out.buffer = 0;
-        out.byteOffset = bytes.size();
-        out.byteLength = values.size() * sizeof(T);
-        out.target = target;
-        bytes.resize(bytes.size() + out.byteLength);
-        if (!values.empty())
-            std::memcpy(bytes.data() + out.byteOffset, values.data(), out.byteLength);
-        model_.bufferViews.push_back(out);
-        return static_cast<int>(model_.bufferViews.size()) - 1;
-    }
-    std::pair<int, int> index_view(const std::vector<unsigned>& values, unsigned vertices,
-                                   int target) {
-        if (vertices > 65534) return {view(values, target), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT};
-        return {view(std::vector<unsigned short>(values.begin(), values.end()), target),
-                TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT};
-    }
-
-    tinygltf::Model& model_;
-    int zeros_ = -1;  ///< the view of zeros
-};
 
 // The vertices of a part: one for every vertex of the model that it uses, and one more for every further texture coordinate
 // there.
@@ -267,67 +166,177 @@ tinygltf::Material material_of(const MorphPart& part) {
     out.pbrMetallicRoughness.baseColorFactor = {linear_of_srgb(part.colour[0]),
                                                 linear_of_srgb(part.colour[1]),
                                                 linear_of_srgb(part.colour[2]), part.opacity};
-    if (part.opacity < 1) out.alphaMode = "BLEND";
+    if (part.opacity < 1 || part.picture_cuts) out.alphaMode = "BLEND";
+    if (part.picture >= 0) out.pbrMetallicRoughness.baseColorTexture.index = part.picture;
     out.pbrMetallicRoughness.metallicFactor = 0;
     out.pbrMetallicRoughness.roughnessFactor = part.roughness;
     return out;
 }
 
-void add_animation(const MorphAnimation& animation, Packer& packer, tinygltf::Model& out) {
-    Floats times, weights;
-    for (long f = 0; f < animation.weights.rows(); ++f) {
-        times.push_back(static_cast<float>(static_cast<double>(f) / animation.fps));
-        for (long t = 0; t < animation.weights.cols(); ++t)
-            weights.push_back(animation.weights(f, t));
+/// What of the targets a mesh has: all for the first one, else those that move its vertices.
+std::vector<std::size_t> targets_of(const MorphModel& model, const std::vector<char>& is_here,
+                                    bool first) {
+    std::vector<std::size_t> out;
+    for (std::size_t t = 0; t < model.targets.size(); ++t) {
+        const std::vector<int>& moved = model.targets[t].vertex;
+        if (first || std::any_of(moved.begin(), moved.end(),
+                                 [&](int v) { return is_here[static_cast<std::size_t>(v)] != 0; }))
+            out.push_back(t);
     }
-    tinygltf::AnimationSampler sampler;
-    sampler.interpolation = "LINEAR";
-    sampler.input = packer.floats(times, TINYGLTF_TYPE_SCALAR, true);
-    sampler.output = packer.floats(weights, TINYGLTF_TYPE_SCALAR, false);
-    tinygltf::AnimationChannel channel;
-    channel.sampler = 0;
-    channel.target_node = 0;
-    channel.target_path = "weights";
-    tinygltf::Animation made;
-    made.name = animation.name;
-    made.samplers.push_back(sampler);
-    made.channels.push_back(channel);
-    out.animations.push_back(made);
+    return out;
 }
 
-}  // namespace
+class GlbWriter {
+  public:
+    explicit GlbWriter(const MorphModel& model)
+        : model_(model), nodes_(model.nodes), packer_(out_) {
+        if (nodes_.empty()) nodes_.push_back({.name = model.name});
+        double largest = 0;
+        for (const MorphTarget& target : model.targets)
+            if (target.delta.size() > 0)
+                largest = std::max(largest, target.delta.cwiseAbs().maxCoeff());
+        // Positions use the same unit, and the scale of the node converts both to metres.
+        unit_ = model.whole_numbers ? largest / kMaxWhole : 0;
+        normals_ = vertex_normals(model, model.vertices);
+    }
 
-std::string glb_bytes(const MorphModel& model) {
-    tinygltf::Model out;
-    out.asset.version = "2.0";
-    out.asset.generator = "Risorius";
-    Packer packer(out);
-    double largest = 0;
-    for (const MorphTarget& target : model.targets)
-        if (target.delta.size() > 0)
-            largest = std::max(largest, target.delta.cwiseAbs().maxCoeff());
-    // Positions use the same unit, and the scale of the node converts both to metres.
-    const double unit = model.whole_numbers ? largest / kMaxWhole : 0;
-    if (unit > 0) out.extensionsUsed = out.extensionsRequired = {"KHR_mesh_quantization"};
-    const Points normals = vertex_normals(model, model.vertices);
-    std::vector<PartVertices> vertices;
-    tinygltf::Mesh mesh;
-    mesh.name = model.name;
-    for (const MorphPart& part : model.parts) {
-        const PartVertices& own = vertices.emplace_back(part);
+    std::string bytes() {
+        out_.asset.version = "2.0";
+        out_.asset.generator = "Risorius";
+        if (unit_ > 0) out_.extensionsUsed = out_.extensionsRequired = {"KHR_mesh_quantization"};
+        add_nodes();
+        add_pictures();
+        for (const MorphPart& part : model_.parts) vertices_.emplace_back(part);
+        for (std::size_t n = 0; n < nodes_.size(); ++n) add_mesh(static_cast<int>(n));
+        add_targets();
+        add_skin();
+        for (const MorphAnimation& animation : model_.animations) add_animation(animation);
+        std::ostringstream bytes;
+        tinygltf::TinyGLTF writer;
+        if (!writer.WriteGltfSceneToStream(&out_, bytes, false, true))
+            throw RunError("the glTF of " + model_.name + " cannot be written");
+        return bytes.str();
+    }
+
+  private:
+    /// A mesh, the parts in it, and its targets.
+    struct Mesh {
+        int node;
+        std::vector<std::size_t> parts, targets;
+    };
+
+    void add_nodes() {
+        tinygltf::Scene scene;
+        for (std::size_t n = 0; n < nodes_.size(); ++n) {
+            const MorphNode& from = nodes_[n];
+            tinygltf::Node node;
+            node.name = from.name;
+            if (!from.extras.is_null()) node.extras = value_of(from.extras);
+            Vec3 place = from.place;
+            if (from.parent < 0) {
+                scene.nodes.push_back(static_cast<int>(n));
+            } else {
+                const auto parent = static_cast<std::size_t>(from.parent);
+                place -= nodes_[parent].place;
+                out_.nodes[parent].children.push_back(static_cast<int>(n));
+            }
+            if (!place.isZero(0.0)) node.translation = {place.x(), place.y(), place.z()};
+            out_.nodes.push_back(node);
+        }
+        out_.scenes.push_back(scene);
+        out_.defaultScene = 0;
+    }
+
+    void add_pictures() {
+        if (model_.pictures.empty()) return;
+        for (const MorphPicture& picture : model_.pictures) {
+            tinygltf::Image image;
+            image.name = picture.name;
+            image.mimeType = picture.mime_type;
+            image.bufferView = packer_.picture(picture.bytes);
+            tinygltf::Texture texture;
+            texture.source = static_cast<int>(out_.images.size());
+            texture.sampler =
+                sampler(repeats(texture.source) ? TINYGLTF_TEXTURE_WRAP_REPEAT
+                                                : TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE);
+            out_.images.push_back(image);
+            out_.textures.push_back(texture);
+        }
+    }
+
+    /// The sampler that wraps so, with mipmaps.
+    int sampler(int wrap) {
+        tinygltf::Sampler made;
+        made.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+        made.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+        made.wrapS = made.wrapT = wrap;
+        const auto known = std::find(out_.samplers.begin(), out_.samplers.end(), made);
+        const auto index = static_cast<int>(known - out_.samplers.begin());
+        if (known == out_.samplers.end()) out_.samplers.push_back(made);
+        return index;
+    }
+
+    /// Whether texture coordinates beyond the border show a picture again.
+    bool repeats(int picture) const {
+        return std::any_of(model_.parts.begin(), model_.parts.end(), [&](const MorphPart& part) {
+            return part.picture == picture && part.texcoords.rows() > 0 &&
+                   (part.texcoords.minCoeff() < 0 || part.texcoords.maxCoeff() > 1);
+        });
+    }
+
+    /// The material of a part. Parts that look the same share it.
+    int material(const MorphPart& part) {
+        const tinygltf::Material made = material_of(part);
+        const auto known = std::find(out_.materials.begin(), out_.materials.end(), made);
+        if (known == out_.materials.end()) out_.materials.push_back(made);
+        return static_cast<int>(std::find(out_.materials.begin(), out_.materials.end(), made) -
+                                out_.materials.begin());
+    }
+
+    /// The parts of a node.
+    void add_mesh(int node) {
+        Mesh made{node, {}, {}};
+        std::vector<char> is_here(static_cast<std::size_t>(model_.vertices.rows()), 0);
+        tinygltf::Mesh mesh;
+        mesh.name = nodes_[static_cast<std::size_t>(node)].name;
+        for (std::size_t p = 0; p < model_.parts.size(); ++p) {
+            if (model_.parts[p].node != node) continue;
+            made.parts.push_back(p);
+            for (const int v : vertices_[p].vertex) is_here[static_cast<std::size_t>(v)] = 1;
+            mesh.primitives.push_back(primitive(p));
+        }
+        if (made.parts.empty()) return;
+        made.targets = targets_of(model_, is_here, meshes_.empty());
+        mesh.weights.assign(made.targets.size(), 0.0);
+        Json extras = meshes_.empty() && model_.extras.is_object() ? model_.extras : Json::object();
+        if (!made.targets.empty() || meshes_.empty()) extras["targetNames"] = Json::array();
+        for (const std::size_t t : made.targets)
+            extras["targetNames"].push_back(model_.targets[t].name);
+        if (!extras.empty()) mesh.extras = value_of(extras);
+        tinygltf::Node& shown = out_.nodes[static_cast<std::size_t>(node)];
+        shown.mesh = static_cast<int>(out_.meshes.size());
+        if (unit_ > 0 && node != model_.skin.node) shown.scale.assign(3, unit_);
+        out_.meshes.push_back(mesh);
+        meshes_.push_back(std::move(made));
+    }
+
+    tinygltf::Primitive primitive(std::size_t p) {
+        const MorphPart& part = model_.parts[p];
+        const PartVertices& own = vertices_[p];
         tinygltf::Primitive primitive;
         primitive.mode = TINYGLTF_MODE_TRIANGLES;
-        primitive.material = static_cast<int>(out.materials.size());
-        out.materials.push_back(material_of(part));
-        primitive.indices = packer.indices(own.corner, own.count());
+        primitive.material = material(part);
+        primitive.indices = packer_.indices(own.corner, own.count());
         constexpr int kVertexData = TINYGLTF_TARGET_ARRAY_BUFFER;
         const auto vectors = [&](const Points& of, bool with_range) {
-            return packer.floats(own.gather(of), TINYGLTF_TYPE_VEC3, with_range, kVertexData);
+            return packer_.floats(own.gather(of), TINYGLTF_TYPE_VEC3, with_range, kVertexData);
         };
-        primitive.attributes["POSITION"] =
-            vectors(unit > 0 ? Points(model.vertices / unit) : model.vertices, true);
-        primitive.attributes["NORMAL"] = vectors(normals, false);
-        primitive.attributes["_VERTEX"] = packer.floats(
+        Points places = model_.vertices.rowwise() -
+                        nodes_[static_cast<std::size_t>(part.node)].place.transpose();
+        if (unit_ > 0) places /= unit_;
+        primitive.attributes["POSITION"] = vectors(places, true);
+        primitive.attributes["NORMAL"] = vectors(normals_, false);
+        primitive.attributes["_VERTEX"] = packer_.floats(
             Floats(own.vertex.begin(), own.vertex.end()), TINYGLTF_TYPE_SCALAR, false, kVertexData);
         if (part.texcoords.rows() > 0) {
             Floats coordinates;
@@ -336,50 +345,138 @@ std::string glb_bytes(const MorphModel& model) {
                 coordinates.push_back(static_cast<float>(1 - v));  // glTF measures from the top
             }
             primitive.attributes["TEXCOORD_0"] =
-                packer.floats(coordinates, TINYGLTF_TYPE_VEC2, false, kVertexData);
+                packer_.floats(coordinates, TINYGLTF_TYPE_VEC2, false, kVertexData);
         }
         if (part.tint.rows() > 0)
             primitive.attributes["COLOR_0"] = vectors(part.tint.unaryExpr([](double value) {
                 return static_cast<double>(linear_of_srgb(value));
             }),
                                                       false);
-        mesh.primitives.push_back(primitive);
+        if (part.node == model_.skin.node) add_joints(own, primitive);
+        return primitive;
     }
-    if (!model.targets.empty() && !vertices.empty())
-        packer.make_zeros(std::max_element(vertices.begin(), vertices.end(),
-                                           [](const PartVertices& a, const PartVertices& b) {
-                                               return a.count() < b.count();
-                                           })
-                              ->count());
-    std::vector<PartTargets> targets;
-    for (const PartVertices& part : vertices) targets.emplace_back(packer, part, unit);
-    for (const MorphTarget& target : model.targets) {
-        const TargetFields fields(model, target, normals);
-        for (std::size_t p = 0; p < vertices.size(); ++p)
-            mesh.primitives[p].targets.push_back({{"POSITION", targets[p].positions(fields.delta)},
-                                                  {"NORMAL", targets[p].normals(fields.turn)}});
+
+    /// The joints of each vertex, and their shares in 65535ths, which sum to 1.
+    void add_joints(const PartVertices& own, tinygltf::Primitive& primitive) {
+        std::vector<unsigned char> joints;
+        std::vector<unsigned short> shares;
+        for (const int v : own.vertex) {
+            const Eigen::RowVectorXd weights = model_.skin.weights.row(v);
+            long left = 65535, largest = 0;
+            for (long j = 0; j < 4; ++j) {
+                const long share = j < weights.size() ? std::lround(65535 * weights[j]) : 0;
+                joints.push_back(static_cast<unsigned char>(share > 0 ? j : 0));
+                shares.push_back(static_cast<unsigned short>(share));
+                left -= share;
+                if (j < weights.size() && weights[j] > weights[largest]) largest = j;
+            }
+            auto& most = shares[shares.size() - 4 + static_cast<std::size_t>(largest)];
+            most = static_cast<unsigned short>(most + left);
+        }
+        primitive.attributes["JOINTS_0"] = packer_.quadruples(joints, false);
+        primitive.attributes["WEIGHTS_0"] = packer_.quadruples(shares, true);
     }
-    mesh.weights.assign(model.targets.size(), 0.0);
-    Json extras = model.extras.is_object() ? model.extras : Json::object();
-    extras["targetNames"] = Json::array();
-    for (const MorphTarget& target : model.targets) extras["targetNames"].push_back(target.name);
-    mesh.extras = value_of(extras);
-    out.meshes.push_back(mesh);
-    tinygltf::Node node;
-    node.name = model.name;
-    node.mesh = 0;
-    if (unit > 0) node.scale.assign(3, unit);
-    out.nodes.push_back(node);
-    for (const MorphAnimation& animation : model.animations) add_animation(animation, packer, out);
-    tinygltf::Scene scene;
-    scene.nodes.push_back(0);
-    out.scenes.push_back(scene);
-    out.defaultScene = 0;
-    std::ostringstream bytes;
-    tinygltf::TinyGLTF writer;
-    if (!writer.WriteGltfSceneToStream(&out, bytes, false, true))
-        throw RunError("the glTF of " + model.name + " cannot be written");
-    return bytes.str();
-}
+
+    void add_targets() {
+        unsigned most = 0;
+        for (const PartVertices& part : vertices_) most = std::max(most, part.count());
+        if (!model_.targets.empty() && most > 0) packer_.make_zeros(most);
+        std::vector<PartTargets> targets;
+        for (const PartVertices& part : vertices_) targets.emplace_back(packer_, part, unit_);
+        for (std::size_t t = 0; t < model_.targets.size(); ++t) {
+            const TargetFields fields(model_, model_.targets[t], normals_);
+            for (std::size_t m = 0; m < meshes_.size(); ++m) {
+                const Mesh& mesh = meshes_[m];
+                if (!std::binary_search(mesh.targets.begin(), mesh.targets.end(), t)) continue;
+                for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
+                    PartTargets& part = targets[mesh.parts[i]];
+                    out_.meshes[m].primitives[i].targets.push_back(
+                        {{"POSITION", part.positions(fields.delta)},
+                         {"NORMAL", part.normals(fields.turn)}});
+                }
+            }
+        }
+    }
+
+    void add_skin() {
+        if (model_.skin.node < 0) return;
+        tinygltf::Skin skin;
+        skin.name = nodes_[static_cast<std::size_t>(model_.skin.node)].name;
+        skin.joints = model_.skin.joints;
+        Floats to_joints;
+        const double unit = unit_ > 0 ? unit_ : 1;
+        for (const int joint : model_.skin.joints) {
+            Eigen::Matrix4d to_joint = Eigen::Matrix4d::Identity();
+            to_joint.topLeftCorner<3, 3>() *= unit;
+            to_joint.topRightCorner<3, 1>() = -nodes_[static_cast<std::size_t>(joint)].place;
+            for (long k = 0; k < 16; ++k)
+                to_joints.push_back(static_cast<float>(to_joint(k % 4, k / 4)));
+        }
+        skin.inverseBindMatrices = packer_.floats(to_joints, TINYGLTF_TYPE_MAT4, false);
+        out_.skins.push_back(skin);
+        out_.nodes[static_cast<std::size_t>(model_.skin.node)].skin = 0;
+    }
+
+    void add_animation(const MorphAnimation& animation) {
+        tinygltf::Animation made;
+        made.name = animation.name;
+        Floats times;
+        for (long f = 0; f < animation.weights.rows(); ++f)
+            times.push_back(static_cast<float>(static_cast<double>(f) / animation.fps));
+        const int input = packer_.floats(times, TINYGLTF_TYPE_SCALAR, true);
+        const auto add = [&](int node, const char* path, const Floats& values, int type) {
+            tinygltf::AnimationSampler sampler;
+            sampler.interpolation = "LINEAR";
+            sampler.input = input;
+            sampler.output = packer_.floats(values, type, false);
+            tinygltf::AnimationChannel channel;
+            channel.sampler = static_cast<int>(made.samplers.size());
+            channel.target_node = node;
+            channel.target_path = path;
+            made.samplers.push_back(sampler);
+            made.channels.push_back(channel);
+        };
+        for (const Mesh& mesh : meshes_) {
+            if (!nodes_[static_cast<std::size_t>(mesh.node)].animate_shapes) continue;
+            Floats weights;
+            bool moves = &mesh == &meshes_[0];
+            for (long f = 0; f < animation.weights.rows(); ++f)
+                for (const std::size_t t : mesh.targets) {
+                    weights.push_back(animation.weights(f, static_cast<long>(t)));
+                    moves = moves || weights.back() != 0;
+                }
+            if (moves && !weights.empty()) add(mesh.node, "weights", weights, TINYGLTF_TYPE_SCALAR);
+        }
+        for (const NodeMotion& motion : animation.motions) {
+            const auto node = static_cast<std::size_t>(motion.node);
+            Floats turns, places;
+            for (const Eigen::Quaterniond& turn : motion.turn)
+                for (const double value : {turn.x(), turn.y(), turn.z(), turn.w()})
+                    turns.push_back(static_cast<float>(value));
+            Vec3 rest = nodes_[node].place;
+            if (nodes_[node].parent >= 0)
+                rest -= nodes_[static_cast<std::size_t>(nodes_[node].parent)].place;
+            for (const Vec3& shift : motion.shift)
+                for (long k = 0; k < 3; ++k)
+                    places.push_back(static_cast<float>(rest[k] + shift[k]));
+            add(motion.node, "rotation", turns, TINYGLTF_TYPE_VEC4);
+            if (!places.empty()) add(motion.node, "translation", places, TINYGLTF_TYPE_VEC3);
+        }
+        if (!made.channels.empty()) out_.animations.push_back(made);
+    }
+
+    const MorphModel& model_;
+    std::vector<MorphNode> nodes_;
+    double unit_ = 0;  ///< of positions, m; 0: they are floats in metres
+    Points normals_;
+    tinygltf::Model out_;
+    Packer packer_;
+    std::vector<PartVertices> vertices_;  ///< by part
+    std::vector<Mesh> meshes_;
+};
+
+}  // namespace
+
+std::string glb_bytes(const MorphModel& model) { return GlbWriter(model).bytes(); }
 
 }  // namespace risorius::io

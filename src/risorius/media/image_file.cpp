@@ -65,22 +65,27 @@ bool has_transparency(const Image& image) {
     return false;
 }
 
-void write_png(const Image& image, const std::filesystem::path& file) {
+std::string png_bytes(const Image& image, const std::string& name, PngSize size) {
     if (image.width_px < 1 || image.height_px < 1 ||
         image.rgba.size() != Image(image.width_px, image.height_px).rgba.size())
-        throw Error(file.string(), "a picture of at least 1 x 1 pixels",
+        throw Error(name, "a picture of at least 1 x 1 pixels",
                     std::to_string(image.width_px) + " x " + std::to_string(image.height_px));
     const std::vector<std::uint8_t> opaque =
         has_transparency(image) ? std::vector<std::uint8_t>() : without_alpha(image);
     png_image png = described(image.width_px, image.height_px,
                               opaque.empty() ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB);
-    png.flags = PNG_IMAGE_FLAG_FAST;
+    png.flags = size == PngSize::kFast ? PNG_IMAGE_FLAG_FAST : 0;
     const void* const pixels = opaque.empty() ? image.rgba.data() : opaque.data();
-    std::vector<unsigned char> bytes(PNG_IMAGE_PNG_SIZE_MAX(png));
-    png_alloc_size_t size = bytes.size();
-    if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, pixels, 0, nullptr))
-        throw RunError(file.string() + ": cannot be encoded as PNG: " + png.message);
-    write_file(file, {reinterpret_cast<const char*>(bytes.data()), size});
+    std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(png), '\0');
+    png_alloc_size_t length = bytes.size();
+    if (!png_image_write_to_memory(&png, bytes.data(), &length, 0, pixels, 0, nullptr))
+        throw RunError(name + ": cannot be encoded as PNG: " + png.message);
+    bytes.resize(length);
+    return bytes;
+}
+
+void write_png(const Image& image, const std::filesystem::path& file) {
+    write_file(file, png_bytes(image, file.string(), PngSize::kFast));
 }
 
 void write_png16(const Image& image, const std::filesystem::path& file) {

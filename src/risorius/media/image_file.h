@@ -12,6 +12,10 @@
 
 namespace risorius::media {
 
+/// How hard the pixels are compressed: quickly, or to about four fifths of that size in three times the time.
+enum class PngSize { kFast, kSmall };
+/// Returns the bytes of a PNG file. Alpha is kept when any pixel is not opaque. `name`: of the picture, for messages.
+std::string png_bytes(const Image& image, const std::string& name, PngSize size = PngSize::kSmall);
 /// Writes a picture under a temporary name and then renames the file. Alpha is kept when any pixel is not opaque. Throws RunError
 /// on failure.
 void write_png(const Image& image, const std::filesystem::path& file);

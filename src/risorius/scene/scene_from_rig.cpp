@@ -6,7 +6,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/face/anatomy/lids.h"
-#include "risorius/scene/detail/texture_picture.h"
+#include "risorius/scene/texture_picture.h"
 
 namespace risorius::scene {
 

@@ -7,6 +7,8 @@
 #include <set>
 
 #include "risorius/blendshapes/detail/corrective_drivers.h"
+#include "risorius/blendshapes/detail/morph_head.h"
+#include "risorius/blendshapes/detail/mouth_shade.h"
 #include "risorius/blendshapes/detail/point_cache.h"
 #include "risorius/blendshapes/detail/shape_correctives.h"
 #include "risorius/core/error.h"
@@ -21,62 +23,6 @@ namespace risorius::blendshapes {
 
 namespace {
 
-const Vec3 kScleraColour(0.93, 0.91, 0.89), kTeethColour(0.90, 0.87, 0.78),
-    kGumsColour(0.78, 0.45, 0.44), kTongueColour(0.76, 0.44, 0.42), kMouthColour(0.55, 0.26, 0.25),
-    kPupilColour(0.02, 0.02, 0.02);
-
-// Colours the iris, found around the optical axis.
-void tint_eye(const rig::EyeGeometry& eye, const rig::EyesDescription& sizes,
-              const rig::AppearanceDescription& appearance, double size, const Points& vertices,
-              Points& tint) {
-    const double iris = 1e-3 * sizes.iris_radius_mm * size,
-                 pupil = 1e-3 * sizes.pupil_radius_mm * size;
-    for (long v = 0; v < vertices.rows(); ++v) {
-        const Vec3 from = vertices.row(v).transpose() - eye.centre;
-        const double along = from.dot(eye.forward), aside = (from - along * eye.forward).norm();
-        if (from.norm() > 1.5 * eye.radius_m || along <= 0 || aside > iris) continue;
-        const Vec3 colour = aside < pupil ? kPupilColour : appearance.iris_tone;
-        tint.row(v) = colour.cwiseQuotient(kScleraColour).transpose();
-    }
-}
-
-/// Name and colours of a role; false for a role that is not shown.
-bool describe_part(const std::string& role, const scene::RigFiles& files, const rig::Head& head,
-                   io::MorphPart& part) {
-    const rig::AppearanceDescription& appearance = files.rig.appearance;
-    if (role == "skin") {
-        part.colour = appearance.skin_tone;
-    } else if (role == "mouth" || role == "eye_socket") {
-        part.colour = kMouthColour;
-        part.roughness = 0.4;
-        part.see_both_sides = true;
-    } else if (role.starts_with("eye_")) {
-        part.colour = kScleraColour;
-        part.roughness = 0.1;
-        part.tint = Points::Ones(head.vertices.rows(), 3);
-        const rig::EyeGeometry& eye = head.eyes[role == "eye_l" ? 0 : 1];
-        if (eye.present)
-            tint_eye(eye, files.rig.eyes, appearance, head.size, head.vertices, part.tint);
-    } else if (role.starts_with("cornea")) {
-        part.roughness = 0.02;
-        part.opacity = 0.08;
-    } else if (role.starts_with("teeth")) {
-        part.colour = kTeethColour;
-        part.roughness = 0.25;
-    } else if (role.starts_with("gums")) {
-        part.colour = kGumsColour;
-        part.roughness = 0.35;
-    } else if (role == "tongue") {
-        part.colour = kTongueColour;
-    } else if (role.starts_with("lashes")) {
-        part.colour = appearance.hair_tone;
-        part.see_both_sides = true;
-    } else {
-        return false;
-    }
-    return true;
-}
-
 // Displacement of a vertex of a shape, mesh units.
 Vec3 in_mesh_units(const rig::Head& head, const blendshapes::SparseShape& shape, std::size_t i) {
     return head.frame.rotation.transpose() * shape.delta.row(static_cast<long>(i)).transpose() /
@@ -85,30 +31,15 @@ Vec3 in_mesh_units(const rig::Head& head, const blendshapes::SparseShape& shape,
 
 }  // namespace
 
-io::MorphModel morph_model(const scene::RigFiles& files, const rig::Head& head,
+io::MorphModel morph_model(const scene::RigFiles& files, const face::Face& face,
                            const MadeShapes& shapes, const std::string& set,
                            const blendshapes::BlendShapeRig& linear,
-                           const ShapeAnimation* animation) {
-    io::MorphModel model;
-    model.name = files.rig.name;
-    model.vertices = head.vertices;
-    model.stands_for = head.welded;
-    for (std::size_t g = 0; g < files.mesh.group_names.size(); ++g) {
-        io::MorphPart part;
-        part.name = files.mesh.group_names[g];
-        if (!describe_part(head.role_of_group[g], files, head, part)) continue;
-        Triangles corners;
-        part.triangles = geom::triangulate(files.mesh, {static_cast<int>(g)}, &corners);
-        if (part.triangles.rows() == 0) continue;
-        if (files.mesh.corner_texcoord.rows() > 0) {
-            part.texcoords.resize(3 * part.triangles.rows(), 2);
-            for (long c = 0; c < part.texcoords.rows(); ++c)
-                part.texcoords.row(c) = files.mesh.corner_texcoord.row(corners(c / 3, c % 3));
-        }
-        model.parts.push_back(std::move(part));
-    }
+                           const ShapeAnimation* animation, int texture_px) {
+    const rig::Head& head = face.head();
+    io::MorphModel model = morph_head(files, face, texture_px);
     for (const MadeShape& made : shapes.list)
         model.targets.push_back({made.goal.name, made.shape.vertex, made.shape.delta});
+    shade_mouth(head, model);
     const auto names_of = [&](const std::vector<int>& indices) {
         Json out = Json::array();
         for (const int i : indices)
@@ -154,6 +85,7 @@ io::MorphModel morph_model(const scene::RigFiles& files, const rig::Head& head,
         for (long f = 0; f < animation->weights.rows(); ++f)
             out.weights.row(f) =
                 linear.all_weights(animation->weights.row(f).transpose()).transpose().cast<float>();
+        out.motions = node_motions(model, face, animation->drives);
     }
     return model;
 }

@@ -10,19 +10,19 @@
 #include "risorius/blendshapes/detail/blend_shape_rig.h"
 #include "risorius/blendshapes/detail/make_shapes.h"
 #include "risorius/blendshapes/detail/shape_animation.h"
+#include "risorius/face/face.h"
 #include "risorius/io/morph_model.h"
 #include "risorius/rig/head.h"
 #include "risorius/scene/rig_files.h"
 
 namespace risorius::blendshapes {
 
-/// Returns a glTF model of the head. Its parts (skin, eyes, ...) have the colours of the rig's appearance. The shapes are its
-/// morph targets, followed by the correctives. The glTF extras hold the rig, the set, and under "correctives" the drivers of the
-/// correctives. `animation` may be null.
-io::MorphModel morph_model(const scene::RigFiles& files, const rig::Head& head,
+/// Returns a glTF model of the head, see morph_head(). The shapes are its morph targets, followed by the correctives. The glTF
+/// extras hold the rig, the set, and under "correctives" the drivers of the correctives. `animation` may be null.
+io::MorphModel morph_model(const scene::RigFiles& files, const face::Face& face,
                            const MadeShapes& shapes, const std::string& set,
                            const blendshapes::BlendShapeRig& linear,
-                           const ShapeAnimation* animation);
+                           const ShapeAnimation* animation, int texture_px);
 
 /// Writes every vertex in every frame of the animation, in mesh units, computed with the blend shape rig. Of `formats`, "cache" is
 /// folder/cache.json and folder/cache.f32, "pc2" cache.pc2 and "mdd" cache.mdd. Returns the names of the files.

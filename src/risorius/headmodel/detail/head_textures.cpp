@@ -2,13 +2,11 @@
 #include "risorius/headmodel/detail/head_textures.h"
 
 #include <algorithm>
-#include <cmath>
-#include <random>
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_cursor.h"
-#include "risorius/headmodel/detail/part_layout.h"
 #include "risorius/media/image_file.h"
+#include "risorius/render/lash_picture.h"
 #include "risorius/render/offscreen_view.h"
 #include "risorius/report/atomic_file.h"
 
@@ -36,41 +34,6 @@ const std::vector<PartPicture>& part_pictures() {
 
 constexpr const char* kLashFile = "lashes.png";
 
-/// What of a ribbon of lashes is hair, white on black: hairs of some lengths that bend a little and thin out towards the tip.
-Image lash_opacity(int side_px) {
-    constexpr double kHalfWidth = 0.0035;  // of the lid's length, at the root
-    Image image(side_px, side_px);
-    for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
-    std::mt19937 random(1);
-    const auto next = [&] { return static_cast<double>(random()) / 4294967296.0; };
-    for (const bool upper : {true, false}) {
-        const int hairs = upper ? 95 : 60;
-        for (int hair = 0; hair < hairs; ++hair) {
-            const double root = (hair + next()) / hairs, bend = 0.03 * (next() - 0.5),
-                         length = 0.55 + 0.45 * next();
-            for (int y = 0; y < side_px; ++y) {
-                // The row's share of the way out, as lash_place() has it
-                const double from = headmodel::lash_place(upper, 0, 0).y(),
-                             to = headmodel::lash_place(upper, 0, 1).y();
-                const double t = (1 - (y + 0.5) / side_px - from) / (to - from);
-                if (t < 0 || t > length) continue;
-                const double along = root + bend * t * t,
-                             half = kHalfWidth * side_px * (1 - 0.8 * t / length),
-                             middle = headmodel::lash_place(upper, along, t).x() * side_px;
-                for (int x = std::max(0, static_cast<int>(middle - half - 1));
-                     x < std::min(side_px, static_cast<int>(middle + half + 2)); ++x) {
-                    const double covered =
-                        std::clamp(half + 0.5 - std::abs(x + 0.5 - middle), 0.0, 1.0);
-                    const auto byte = static_cast<std::uint8_t>(std::lround(255 * covered));
-                    std::uint8_t* pixel = image.pixel(x, y);
-                    for (int k = 0; k < 3; ++k) pixel[k] = std::max(pixel[k], byte);
-                }
-            }
-        }
-    }
-    return image;
-}
-
 }  // namespace
 
 std::vector<std::string> write_head_textures(const render::Scene& scene, int side_px,
@@ -90,7 +53,7 @@ std::vector<std::string> write_head_textures(const render::Scene& scene, int sid
                          folder / part.file);
         files.emplace_back(part.file);
     }
-    media::write_png(lash_opacity(side_px / 2), folder / kLashFile);
+    media::write_png(render::lash_opacity(side_px / 2), folder / kLashFile);
     files.emplace_back(kLashFile);
     report::write_text(folder / kTextureLibrary, texture_library(scene.appearance.hair_tone));
     files.emplace_back(kTextureLibrary);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "risorius/headmodel/detail/part_layout.h"
+#include "risorius/render/lash_picture.h"
 
 namespace risorius::headmodel {
 
@@ -27,7 +27,7 @@ geom::PolygonMesh lashes(const Skin& skin, const Globe& globe, double side,
             Vec3 p = root;
             for (int s = 0; s <= kSegments; ++s) {
                 points.push_back(p);
-                places.push_back(lash_place(upper, static_cast<double>(k - from) / (to - from),
+                places.push_back(render::lash_place(upper, static_cast<double>(k - from) / (to - from),
                                             static_cast<double>(s) / kSegments));
                 // Leaves the lid forwards and a little down, then turns up (upper lid); forwards and down (lower lid).
                 const double t = (s + 0.5) / kSegments;

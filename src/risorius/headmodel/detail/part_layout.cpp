@@ -30,10 +30,4 @@ Vec2 gum_place(bool upper, double along, double around) {
             upper ? 1 - kMargin - kHeight * around : kMargin + kHeight * around};
 }
 
-Vec2 lash_place(bool upper, double along, double out) {
-    constexpr double kMargin = 0.01, kHeight = 0.5 - 2 * kMargin;
-    return {kMargin + (1 - 2 * kMargin) * along,
-            upper ? 0.5 + kMargin + kHeight * out : 0.5 - kMargin - kHeight * out};
-}
-
 }  // namespace risorius::headmodel

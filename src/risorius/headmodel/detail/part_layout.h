@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Texture coordinates of parts made of rings: eyes, tooth crowns and the tongue as discs about their pole, without a visible seam; gums and
-/// lashes as strips. Each kind of part has a square that left and right, upper and lower parts share.
+/// Texture coordinates of parts made of rings: eyes, tooth crowns and the tongue as discs about their pole, without a visible seam; gums as
+/// strips. Each kind of part has a square that left and right, upper and lower parts share.
 #pragma once
 
 #include <array>
@@ -32,9 +32,5 @@ Disc tongue_disc();
 /// Returns a position on the strip of the gums. `along`: from the right end to the left, 0..1. `around`: from the root over the
 /// side of the lips, 0..1.
 Vec2 gum_place(bool upper, double along, double around);
-
-/// Returns a position on a ribbon of lashes. `along`: along the lid from where the ribbon begins, 0..1. `out`: from the roots to
-/// the tips, 0..1.
-Vec2 lash_place(bool upper, double along, double out);
 
 }  // namespace risorius::headmodel

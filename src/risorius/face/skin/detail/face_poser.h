@@ -68,6 +68,7 @@ class FacePoser {
         follow_.turn_with_head(head, rest, points);
     }
     const WrinkleLines& lines() const { return skin_.lines(); }
+    const RigidFollowers& followers() const { return follow_; }
 
   private:
     LidPose lid(int side, const Eigen::VectorXd& activation, const track::Drive& drive,

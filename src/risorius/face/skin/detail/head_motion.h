@@ -21,6 +21,7 @@ class Neck {
     double fraction(const Vec3& rest) const;
     /// Returns a fraction of a motion of the head: this fraction of the rotation about the same pivot, and of the translation.
     Rigid part(const Rigid& head, double fraction) const;
+    const Vec3& pivot() const { return pivot_; }
 
   private:
     Vec3 pivot_;

@@ -45,6 +45,9 @@ class RigidFollowers {
     /// which decide what fraction of the motion they follow.
     void turn_with_head(const Rigid& head, const Points& rest, Points& points) const;
 
+    const std::vector<double>& head_fractions() const { return head_fraction_; }
+    const Neck& neck() const { return neck_; }
+
   private:
     struct LidVertex {
         int vertex;

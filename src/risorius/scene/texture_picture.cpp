@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/scene/detail/texture_picture.h"
+#include "risorius/scene/texture_picture.h"
 
 #include "risorius/core/error.h"
 #include "risorius/media/picture_file.h"

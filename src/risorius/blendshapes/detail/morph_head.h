@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// The head as other programs get it: a hierarchy of nodes with the names they know, parts with materials and pictures, and joints
+/// that turn head and neck.
+///
+///   NAME            the name of the rig
+///     Shoulders, Neck, Head   joints; Neck has half of the head's turn
+///       LeftEye, RightEye     below Head, at the centres of the eyes; EyeLeft and EyeRight are the eyeballs
+///       TeethUpper, TeethLower, Tongue, Lashes   below Head
+///   Face            skin and wall of the mouth, carried by the joints; nothing else moves it, so it is a root of its own
+///
+/// Joints blend linearly, which shortens the neck by 2 % at 45 degrees.
+#pragma once
+
+#include <vector>
+
+#include "risorius/face/face.h"
+#include "risorius/io/morph_model.h"
+#include "risorius/scene/rig_files.h"
+#include "risorius/track/motion.h"
+
+namespace risorius::blendshapes {
+
+/// Returns the model without shapes. Each part has the pictures of the mesh where it has some, else one of the look with
+/// `texture_px` pixels along its side (half of that for all but the skin), else, with 0 or without texture coordinates, a colour.
+io::MorphModel morph_head(const scene::RigFiles& files, const face::Face& face, int texture_px);
+
+/// Returns the turns of head, neck and eyes of such a model, one per drive; only of those that turn at all.
+std::vector<io::NodeMotion> node_motions(const io::MorphModel& model, const face::Face& face,
+                                         const std::vector<track::Drive>& drives);
+
+}  // namespace risorius::blendshapes

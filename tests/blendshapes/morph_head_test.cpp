@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// The head that other programs get: names, pictures, joints that turn it as Risorius does, and a dark mouth.
+#include "risorius/blendshapes/detail/morph_head.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <set>
+
+#include "paths.h"
+#include "risorius/blendshapes/detail/mouth_shade.h"
+#include "risorius/face/surfaces.h"
+
+namespace risorius::blendshapes {
+namespace {
+
+/// The adult, built once for all tests of the suite.
+class MorphHead : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        files_ = std::make_unique<scene::RigFiles>(scene::read_rig_files(
+            std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs/adult/rig.json"));
+        face_ = std::make_unique<face::Face>(files_->rig, files_->mesh,
+                                             face::quality_named("preview"), files_->place());
+        model_ = std::make_unique<io::MorphModel>(morph_head(*files_, *face_, 256));
+    }
+    static void TearDownTestSuite() {
+        model_.reset();
+        face_.reset();
+        files_.reset();
+    }
+    static int node(const std::string& name) {
+        for (std::size_t n = 0; n < model_->nodes.size(); ++n)
+            if (model_->nodes[n].name == name) return static_cast<int>(n);
+        return -1;
+    }
+    static track::Drive drive() {
+        track::Drive out;
+        out.excitation = Eigen::VectorXd::Zero(face_->activation().size());
+        return out;
+    }
+    static std::unique_ptr<scene::RigFiles> files_;
+    static std::unique_ptr<face::Face> face_;
+    static std::unique_ptr<io::MorphModel> model_;
+};
+std::unique_ptr<scene::RigFiles> MorphHead::files_;
+std::unique_ptr<face::Face> MorphHead::face_;
+std::unique_ptr<io::MorphModel> MorphHead::model_;
+
+double& at(track::Drive& drive, track::Kinematic channel) {
+    return drive.kinematic[static_cast<std::size_t>(channel)];
+}
+
+TEST_F(MorphHead, HasTheNamesThatOtherProgramsKnowAndAPictureForEachSubstance) {
+    std::set<std::string> shown, substances;
+    long triangles = 0;
+    for (const io::MorphPart& part : model_->parts) {
+        shown.insert(model_->nodes[static_cast<std::size_t>(part.node)].name);
+        substances.insert(part.name);
+        EXPECT_GE(part.picture, 0) << part.name;
+        EXPECT_EQ(part.texcoords.rows(), 3 * part.triangles.rows());
+        triangles += part.triangles.rows();
+    }
+    EXPECT_EQ(shown, (std::set<std::string>{"EyeLeft", "EyeRight", "Face", "Lashes", "TeethLower",
+                                            "TeethUpper", "Tongue"}));
+    EXPECT_EQ(substances, (std::set<std::string>{"Eyes", "Gums", "Lashes", "Mouth", "Skin", "Teeth",
+                                                 "Tongue"}));
+    EXPECT_LE(model_->parts.size(), 13u);  // draw calls
+    EXPECT_EQ(model_->pictures.size(), 6u);
+    EXPECT_EQ(triangles, geom::triangulate(files_->mesh).rows());
+    // Without pictures of the look, parts have colours, and each eye its iris.
+    const io::MorphModel plain = morph_head(*files_, *face_, 0);
+    EXPECT_EQ(plain.pictures.size(), 1u);  // of the lashes, which are solid ribbons without it
+    int eyes = 0;
+    for (const io::MorphPart& part : plain.parts) eyes += part.tint.rows() > 0;
+    EXPECT_EQ(eyes, 2);
+}
+
+TEST_F(MorphHead, JointsTurnItAsTheSimulationDoes) {
+    track::Drive turned = drive();
+    at(turned, track::Kinematic::kHeadYaw) = 30;
+    at(turned, track::Kinematic::kHeadForward) = 5;
+    const std::vector<io::NodeMotion> motions = node_motions(*model_, *face_, {drive(), turned});
+    ASSERT_EQ(motions.size(), 2u);  // Neck and Head; the eyes rest in their sockets
+    std::map<int, Rigid> place;
+    for (const int joint : model_->skin.joints) place[joint] = Rigid::Identity();
+    for (const io::NodeMotion& motion : motions) {
+        const Vec3 pivot = model_->nodes[static_cast<std::size_t>(motion.node)].place;
+        Rigid& rigid = place[motion.node];
+        rigid.translate(pivot + motion.shift[1]);
+        rigid.rotate(motion.turn[1]);
+        rigid.translate(-pivot);
+    }
+    const Points& rest = face_->head().vertices;
+    const Points posed = face_->surfaces().posed(rest, turned).vertices;
+    double worst = 0, shoulders = 0;
+    for (const io::MorphPart& part : model_->parts) {
+        const bool skinned = part.node == model_->skin.node;
+        for (const int v : part.triangles.reshaped()) {
+            const Vec3 from = rest.row(v);
+            Vec3 to = Vec3::Zero();
+            for (std::size_t j = 0; j < model_->skin.joints.size(); ++j)
+                to += (skinned ? model_->skin.weights(v, static_cast<long>(j)) : j == 2) *
+                      (place[model_->skin.joints[j]] * from);
+            worst = std::max(worst, (to - posed.row(v).transpose()).norm());
+            if (skinned && model_->skin.weights(v, 0) == 1)
+                shoulders = std::max(shoulders, (to - from).norm());
+        }
+    }
+    EXPECT_LT(worst, 1.5e-3);
+    EXPECT_LT(shoulders, 1e-5);
+}
+
+TEST_F(MorphHead, EyesTurnAboutTheirCentres) {
+    track::Drive glance = drive();
+    at(glance, track::Kinematic::kGazeYawLeft) = 17.8;
+    const std::vector<io::NodeMotion> motions = node_motions(*model_, *face_, {drive(), glance});
+    ASSERT_EQ(motions.size(), 1u);
+    EXPECT_EQ(motions[0].node, node("LeftEye"));
+    EXPECT_TRUE(motions[0].shift.empty());
+    const Vec3 centre = model_->nodes[static_cast<std::size_t>(node("LeftEye"))].place;
+    EXPECT_LT((centre - face_->head().eyes[0].centre).norm(), 1e-12);
+    EXPECT_FALSE(model_->nodes[static_cast<std::size_t>(node("EyeLeft"))].animate_shapes);
+    const Points posed = face_->surfaces().posed(face_->head().vertices, glance).vertices;
+    for (const io::MorphPart& part : model_->parts)
+        if (part.node == node("EyeLeft"))
+            for (const int v : part.triangles.reshaped()) {
+                const Vec3 from = face_->head().vertices.row(v).transpose() - centre;
+                EXPECT_LT((centre + motions[0].turn[1] * from - posed.row(v).transpose()).norm(),
+                          1e-9);
+            }
+}
+
+TEST_F(MorphHead, TheMouthIsDarkInsideAndBrightAtTheLips) {
+    io::MorphModel model = *model_;
+    shade_mouth(face_->head(), model);
+    // The wall of the mouth: the farther behind the lips, the darker
+    const double lips = face_->head().landmark("sto").z();
+    double near = 0, deep = 0;
+    int at_lips = 0, inside = 0;
+    for (const io::MorphPart& part : model.parts) {
+        EXPECT_EQ(part.tint.rows() > 0,
+                  part.name != "Skin" && part.name != "Eyes" && part.name != "Lashes")
+            << part.name;
+        if (part.name != "Tongue") continue;
+        for (const int v : part.triangles.reshaped()) {
+            const double behind = lips - model.vertices(v, 2);
+            (behind < 0.02 ? near : deep) += part.tint(v, 0);
+            ++(behind < 0.02 ? at_lips : inside);
+        }
+    }
+    ASSERT_GT(at_lips, 0);
+    ASSERT_GT(inside, 0);
+    EXPECT_LT(deep / inside, near / at_lips + 1e-9);
+    EXPECT_LT(deep / inside, 0.4);
+}
+
+}  // namespace
+}  // namespace risorius::blendshapes
