@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "risorius/render/lash_strands.h"
+#include "risorius/render/detail/lash_strands.h"
 
 namespace risorius::render {
 

@@ -27,8 +27,9 @@ geom::PolygonMesh lashes(const Skin& skin, const Globe& globe, double side,
             Vec3 p = root;
             for (int s = 0; s <= kSegments; ++s) {
                 points.push_back(p);
-                places.push_back(render::lash_place(upper, static_cast<double>(k - from) / (to - from),
-                                            static_cast<double>(s) / kSegments));
+                places.push_back(render::lash_place(upper,
+                                                    static_cast<double>(k - from) / (to - from),
+                                                    static_cast<double>(s) / kSegments));
                 // Leaves the lid forwards and a little down, then turns up (upper lid); forwards and down (lower lid).
                 const double t = (s + 0.5) / kSegments;
                 const double lift = upper ? -0.25 + 1.5 * t : -0.35 - 0.45 * t;

@@ -7,7 +7,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/render/detail/curvature.h"
-#include "risorius/render/lash_strands.h"
+#include "risorius/render/detail/lash_strands.h"
 #include "risorius/render/detail/shaders.h"
 #include "risorius/render/detail/skin_paint.h"
 

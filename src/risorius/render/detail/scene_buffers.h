@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "risorius/render/detail/gl_context.h"
-#include "risorius/render/lash_strands.h"
+#include "risorius/render/detail/lash_strands.h"
 #include "risorius/render/detail/scene_triangles.h"
 #include "risorius/render/detail/smooth_normals.h"
 #include "risorius/render/detail/triangle_choice.h"

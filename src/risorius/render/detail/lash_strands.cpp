@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/render/lash_strands.h"
+#include "risorius/render/detail/lash_strands.h"
 
 #include <algorithm>
 #include <cmath>
