@@ -5,6 +5,7 @@
 #   tools/setup.sh          what building needs
 #   tools/setup.sh test     what testing needs too
 #   tools/setup.sh speech   what building needs, and a voice that speaks texts
+#   tools/setup.sh studio   what building needs, and Node.js for the page of the studio
 #   tools/setup.sh docs     what tools/docs.sh needs, and nothing else
 #
 # RISORIUS_SKIP_SETUP=1 leaves the machine as it is, for systems whose packages have other names.
@@ -20,8 +21,8 @@ die() {
 }
 
 case $purpose in
-    build | test | speech | docs) ;;
-    *) die "expected build, test, speech or docs, found \"$purpose\"" ;;
+    build | test | speech | docs | studio) ;;
+    *) die "expected build, test, speech, docs or studio, found \"$purpose\"" ;;
 esac
 if [[ ${RISORIUS_SKIP_SETUP:-0} == 1 ]]; then exit 0; fi
 

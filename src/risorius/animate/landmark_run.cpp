@@ -82,7 +82,9 @@ std::optional<RenderJob> job_without_expression(const RenderJob& job) {
     std::erase_if(script.channels, [](const track::ChannelTrack& channel) {
         return !moves_only_head_or_gaze(channel.name);
     });
-    if (script.channels.empty() && script.blinks.empty() && script.idle.empty()) return {};
+    if (script.channels.empty() && script.blinks.empty() && script.idle.empty() &&
+        script.pulls.empty())
+        return {};
     script.emg.clear();
     script.expressions.clear();
     script.says.clear();

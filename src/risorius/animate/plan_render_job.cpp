@@ -254,6 +254,20 @@ void add_spoken_sound(const RenderRequest& request, RenderJob& job) {
     job.video.sound_offset_samples = job.speech.sound_offset_samples;
 }
 
+/// Pulls need vertices of the mesh, and a face that is simulated.
+void check_pulls(const RenderRequest& request, const JsonCursor& script, const RenderJob& job) {
+    const int vertices = job.rig->files.mesh.vertex_count();
+    for (std::size_t i = 0; i < job.script.pulls.size(); ++i) {
+        const JsonCursor pull = script.at("pulls").items()[i];
+        if (request.shapes)
+            pull.fail("no pull with " + option_name("shapes") + ", as blend shapes are not soft",
+                      "one");
+        if (job.script.pulls[i].vertex >= vertices)
+            pull.at("vertex").fail("a vertex of the mesh, [0, " + std::to_string(vertices - 1) +
+                                   "]");
+    }
+}
+
 /// The script as read, from memory or from its file.
 ScriptInput script_input(const RenderRequest& request, RenderInputs& inputs) {
     if (request.script_in_memory)
@@ -321,6 +335,7 @@ RenderJob plan_render_job(const RenderRequest& request, RenderInputs& inputs) {
     plan_times(request, job);
 
     plan_rig_and_script(request, script.json, inputs, job);
+    check_pulls(request, script.json, job);
     add_spoken_sound(request, job);
     job.scale = request.scale;
     job.marks = request.marks;

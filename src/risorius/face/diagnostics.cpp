@@ -17,6 +17,15 @@ track::Drive Diagnostics::driven(track::Drive drive) const {
     return drive;
 }
 
+std::vector<HeldPull> Diagnostics::pulls() const { return face_->held_pulls(); }
+
+std::vector<char> Diagnostics::soft_vertices() const {
+    std::vector<char> out;
+    for (int v = 0; v < static_cast<int>(face_->head.vertices.rows()); ++v)
+        out.push_back(face_->is_soft(v));
+    return out;
+}
+
 double Diagnostics::energy_j() const {
     Points unused;
     face_->tissue.begin_rest(face_->now.x);

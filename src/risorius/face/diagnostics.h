@@ -28,6 +28,15 @@ struct MuscleState {
     std::optional<double> stress_pa;
 };
 
+/// State of a pull (track::Pull) of the last step or equilibrium.
+struct HeldPull {
+    int vertex;
+    Vec3 point;      ///< where the spring holds the skin, m, world frame
+    Vec3 hand;       ///< its free end, m, world frame
+    double force_n;  ///< of the spring
+    double moved_m;  ///< of the point, from its position at rest in the head
+};
+
 /// A view of a Face, from Face::diagnostics(). Everything refers to the state after the last step or equilibrium. Positions are
 /// in the head frame, m, unless a function says otherwise. No function changes the state.
 class Diagnostics {
@@ -50,6 +59,11 @@ class Diagnostics {
     /// Returns the position of a landmark of Face::head() in Face::pose(), m, in the world frame. A landmark that is not a vertex
     /// moves with the nearest vertex of the skin. Throws Error for an unknown landmark. Takes as long as Face::pose().
     Vec3 landmark(const std::string& id) const;
+
+    /// Returns one entry per pull of the drive.
+    std::vector<HeldPull> pulls() const;
+    /// Returns one flag per vertex of the mesh: whether soft tissue moves it, so that it can be pulled.
+    std::vector<char> soft_vertices() const;
 
     // Energy and penetration
 

@@ -93,6 +93,14 @@ struct ChannelTable {
 /// muscles of the jaw.
 enum class JawDrive { kChannels, kMuscles };
 
+/// A spring that pulls a point of the skin, as a hand would.
+struct Pull {
+    int vertex = 0;  ///< of the mesh; the tissue must move it
+    /// Where the free end of the spring is, from the position of the vertex at rest, m, world frame.
+    Vec3 offset_m = Vec3::Zero();
+    double stiffness_n_per_m = 100;  ///< [1, 5000]
+};
+
 /// Everything that drives a face at one moment.
 struct Drive {
     /// One value per column: the excitation as a fraction of the maximal neural drive, [min, 1], see clamped_drive(). Empty: no
@@ -102,6 +110,7 @@ struct Drive {
     /// follow.
     Eigen::VectorXd activation;
     KinematicValues kinematic{};
+    std::vector<Pull> pulls{};
     double at(Kinematic k) const { return kinematic[static_cast<std::size_t>(k)]; }
 };
 

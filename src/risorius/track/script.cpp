@@ -93,7 +93,8 @@ ScriptHeader read_header(const JsonCursor& json) {
     const JsonCursor version = json.at("version");
     if (version.json() != 1) version.fail("1, the version of the format this program reads");
     json.allow_keys({"format", "version", "rig", "fps", "duration_s", "seed", "jaw", "motion",
-                     "gravity", "channels", "emg", "events", "view", "weakness", "late_s"});
+                     "gravity", "channels", "emg", "events", "view", "weakness", "late_s",
+                     "pulls"});
     ScriptHeader header;
     header.rig = json.at("rig").string();
     if (header.rig.empty()) json.at("rig").fail("the path of a rig file");
@@ -467,6 +468,7 @@ ScriptDescription read_script(const JsonCursor& json, const ChannelTable& channe
             if (const auto v = late->find(kSideNames[side]))
                 script.late_s[side] = v->number({0, 10});
     }
+    if (const auto pulls = json.find("pulls")) script.pulls = read_pulls(*pulls, kLongest_s);
     const Reader reader(channels, facs, expressions);
     if (const auto table = json.find("channels"))
         for (const std::string& name : table->keys())

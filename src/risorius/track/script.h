@@ -18,6 +18,7 @@
 #include "risorius/track/drive_source.h"
 #include "risorius/track/facs.h"
 #include "risorius/track/motion.h"
+#include "risorius/track/pull_track.h"
 
 namespace risorius::track {
 
@@ -126,6 +127,7 @@ struct ScriptDescription {
     /// Events "say" as written; module talk makes sources of them.
     std::vector<JsonCursor> says;
     std::vector<std::shared_ptr<const DriveSource>> sources;
+    std::vector<PullTrack> pulls;
     std::array<double, 2> late_s{0, 0};  ///< delay of all muscles of a side, [0, 10]
     /// Files that were read besides the script itself.
     std::vector<std::filesystem::path> recordings;

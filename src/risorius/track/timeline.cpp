@@ -23,6 +23,7 @@ Timeline::Timeline(const ScriptDescription& script, const ChannelTable& channels
       expressions_(script.expressions),
       blinks_(script.blinks),
       others_(script.sources),
+      pulls_(script.pulls),
       column_min_(channels.column_min()),
       late_s_(script.late_s) {
     if (script.weakness.size() > 0) strength_ = 1 - script.weakness.array();
@@ -67,6 +68,7 @@ Drive Timeline::at(double t_s) const {
         drive.excitation.array() *= strength_.array();
         drive.activation.array() *= strength_.array();
     }
+    drive.pulls = pulls_at(pulls_, t_s);
     return drive;
 }
 

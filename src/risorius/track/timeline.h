@@ -58,6 +58,7 @@ class Timeline {
     std::vector<BlinkEvent> blinks_;
     std::vector<IdleMotion> idle_;
     std::vector<std::shared_ptr<const DriveSource>> others_;
+    std::vector<PullTrack> pulls_;
     Eigen::VectorXd column_min_;
     Eigen::VectorXd strength_;  ///< per column; empty: all muscles have full strength
     std::array<double, 2> late_s_;

@@ -100,8 +100,12 @@ Vec3 FaceImpl::weight_at(const track::Drive& drive) const {
 
 BoundaryState FaceImpl::boundary_state(const Eigen::VectorXd& activation,
                                        const track::Drive& drive) const {
-    return {driven_jaw.motion(now.jaw.q, drive), poser->lids(activation, drive),
-            drive.at(track::Kinematic::kMouthPressure), poser->gaze(drive), weight_at(drive)};
+    return {driven_jaw.motion(now.jaw.q, drive),
+            poser->lids(activation, drive),
+            drive.at(track::Kinematic::kMouthPressure),
+            poser->gaze(drive),
+            weight_at(drive),
+            pull_springs(drive)};
 }
 
 // The nodes start where the bone carries them, so that the solver does not have to catch up with a fast jaw.
@@ -294,9 +298,10 @@ void FaceImpl::start(const DriveAt& drive) {
     history.clear();
     tissue.forget_contacts();
     dynamics->set_activation(activation);
-    const bool at_rest =
-        activation.isZero(0.0) && driven_jaw.wanted(first).isApprox(Rigid::Identity(), 0.0) &&
-        first.at(track::Kinematic::kMouthPressure) == 0.0 && weight_at(first).isZero(0.0);
+    const bool at_rest = activation.isZero(0.0) &&
+                         driven_jaw.wanted(first).isApprox(Rigid::Identity(), 0.0) &&
+                         first.pulls.empty() && first.at(track::Kinematic::kMouthPressure) == 0.0 &&
+                         weight_at(first).isZero(0.0);
     now.x = tissue.rest();
     now.drive.kinematic.fill(0.0);
     now.jaw = {};

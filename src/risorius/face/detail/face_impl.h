@@ -14,6 +14,7 @@
 #include "risorius/face/anatomy/lids.h"
 #include "risorius/face/anatomy/shell.h"
 #include "risorius/face/anatomy/tissue_mesh.h"
+#include "risorius/face/diagnostics.h"
 #include "risorius/face/face.h"
 #include "risorius/face/muscle/detail/muscle_surface.h"
 #include "risorius/face/skin/detail/face_poser.h"
@@ -86,6 +87,11 @@ struct FaceImpl {
     Vec3 weight_at(const track::Drive& drive) const;
     BoundaryState boundary_state(const Eigen::VectorXd& activation,
                                  const track::Drive& drive) const;
+    /// Returns the springs of the drive's pulls over the nodes, head frame. Throws Error for a vertex that the tissue does not move.
+    std::vector<PullSpring> pull_springs(const track::Drive& drive) const;
+    bool is_soft(int vertex) const;  ///< soft tissue moves the vertex of the mesh
+    /// Returns the state of the pulls of the last step or equilibrium.
+    std::vector<HeldPull> held_pulls() const;
     /// Sets bones, lids and mouth pressure as the drive says, and moves the nodes x with the bones.
     void set_boundary_conditions(Points& x, const Eigen::VectorXd& activation,
                                  const track::Drive& drive);

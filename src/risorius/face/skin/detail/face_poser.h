@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <utility>
+#include <vector>
 
 #include "risorius/core/types.h"
 #include "risorius/face/anatomy/detail/jaw.h"
@@ -66,6 +68,10 @@ class FacePoser {
     /// Applies the motion of the head to soft points, see RigidFollowers::turn_with_head().
     void turn_with_head(const Rigid& head, const Points& rest, Points& points) const {
         follow_.turn_with_head(head, rest, points);
+    }
+    /// See SkinBinding::row().
+    std::vector<std::pair<int, double>> binding_of(int vertex) const {
+        return binding_.row(vertex);
     }
     const WrinkleLines& lines() const { return skin_.lines(); }
     const RigidFollowers& followers() const { return follow_; }

@@ -427,6 +427,16 @@ Points SkinBinding::pull_back(const Points& by_vertex, long shell_vertices) cons
     return out;
 }
 
+std::vector<std::pair<int, double>> SkinBinding::row(int vertex) const {
+    std::vector<std::pair<int, double>> out;
+    if (vertex < 0 || vertex >= static_cast<int>(rows_.size())) return out;
+    const Row& row = rows_[static_cast<std::size_t>(vertex)];
+    for (int k = row.begin; k < row.end; ++k)
+        out.emplace_back(column_[static_cast<std::size_t>(k)],
+                         weight_[static_cast<std::size_t>(k)]);
+    return out;
+}
+
 void SkinBinding::follow(int vertex, int like) {
     rows_[vertex] = rows_[like];
     followers_.push_back({vertex, like});

@@ -33,6 +33,9 @@ class SkinBinding {
     /// Applies the transpose: converts a gradient by the vertices (V x 3) to the gradient by the shell vertices (`shell_vertices` x 3).
     Points pull_back(const Points& by_vertex, long shell_vertices) const;
 
+    /// Returns the shell vertices that move a vertex, with their weights. Empty when the tissue does not move it.
+    std::vector<std::pair<int, double>> row(int vertex) const;
+
     /// Makes apply() move a vertex of another part (a lash) like the skin vertex `like`.
     void follow(int vertex, int like);
     /// Returns the pairs given to follow(): vertex, skin vertex.

@@ -10,6 +10,7 @@
 #include "risorius/face/solver/detail/terms/fibre_term.h"
 #include "risorius/face/solver/detail/terms/lip_term.h"
 #include "risorius/face/solver/detail/terms/load_term.h"
+#include "risorius/face/solver/detail/terms/pull_term.h"
 #include "risorius/face/solver/detail/terms/tissue_term.h"
 #include "risorius/face/solver/detail/terms/volume_muscle_term.h"
 #include "risorius/geom/polyline.h"
@@ -214,6 +215,7 @@ void FaceTissue::build_terms() {
     terms_.add(contact_term_, {.changing_pairs = true});
     terms_.add(std::make_shared<LoadTerm>(cheeks_, mass_, fixed_));
     terms_.add(std::make_shared<LipTerm>(*lip_drive_, inputs_));
+    terms_.add(std::make_shared<PullTerm>());
 }
 
 void FaceTissue::add_term(std::shared_ptr<solve::EnergyTerm> term) {

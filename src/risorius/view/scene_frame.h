@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// What the page draws, as bytes: surfaces, texture coordinates and the shape at rest, sent once.
+///
+/// A message begins with its kind (uint32: 2 scene, 3 picture, 4 muscles) and the length of a JSON text (uint32); the text follows,
+/// filled up with spaces to a multiple of 4 bytes, then arrays of numbers, each at the `at` that the text gives, from the end of
+/// the text. All numbers are little-endian.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "risorius/core/image.h"
+#include "risorius/core/types.h"
+#include "risorius/face/surfaces.h"
+#include "risorius/render/scene.h"
+
+namespace risorius::view {
+
+/// The vertices of the mesh that are drawn. Poses hold these, in this order.
+struct DrawnVertices {
+    std::vector<int> vertex;  ///< of the mesh
+    Points of(const Points& all) const;
+};
+DrawnVertices drawn_vertices(const render::Scene& scene);
+
+/// The scene. `soft`: one flag per vertex of the mesh, whether a hand can pull it.
+std::string encode_scene(const render::Scene& scene, const DrawnVertices& drawn,
+                         const std::vector<char>& soft, double unit_m);
+/// The picture of a material, "skin" or "eye", 8 bits a channel.
+std::string encode_picture(const std::string& material, const Image& picture);
+std::string encode_muscles(const face::MuscleSurfaces& surfaces);
+
+}  // namespace risorius::view

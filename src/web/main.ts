@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// The page of `risorius view`: connects the engine with stage, channels and timeline.
+
+import { cameras } from "./cameras.js";
+import { Channels } from "./channels.js";
+import { byId, h, shown } from "./dom.js";
+import { RemoteEngine } from "./engine.js";
+import { activationColour } from "./head.js";
+import type { Sight } from "./head.js";
+import type { Binary, DocumentMessage, Pose, Scene, State, Vec, Welcome } from "./protocol.js";
+import { Stage } from "./stage.js";
+import { Timeline } from "./timeline.js";
+
+let welcome: Welcome | null = null;
+let script: DocumentMessage | null = null;
+let scene: Scene | null = null;
+let state: State | null = null;
+let pose: Pose | null = null;
+
+function say(text: string, good = false): void {
+  const place = byId("message");
+  place.textContent = text;
+  place.classList.toggle("good", good);
+  place.hidden = false;
+  clearTimeout(Number(place.dataset.timer));
+  place.dataset.timer = String(setTimeout(() => (place.hidden = true), good ? 2500 : 7000));
+}
+
+const stage = new Stage(byId("stage"), {
+  begin: (pull, vertex, point_m) =>
+    engine.send({
+      type: "pull",
+      pull,
+      vertex,
+      point_m,
+      stiffness_n_per_m: Number(byId<HTMLSelectElement>("stiffness").value),
+      record: byId<HTMLInputElement>("record").checked,
+    }),
+  move: (pull, point_m) => moves.set(pull, point_m),
+  end: (pull) => {
+    sendMoves();
+    engine.send({ type: "pull_end", pull });
+  },
+  pick: (muscle) => channels.reveal(muscle),
+});
+
+// The pointer may move more often than the face: one message a picture.
+const moves = new Map<number, Vec>();
+function sendMoves(): void {
+  for (const [pull, point_m] of moves) engine.send({ type: "pull_to", pull, point_m });
+  moves.clear();
+}
+function everyPicture(): void {
+  sendMoves();
+  requestAnimationFrame(everyPicture);
+}
+requestAnimationFrame(everyPicture);
+
+const channels = new Channels(byId("channels"), {
+  override: (channel, value) => engine.send({ type: "override", channel, value }),
+  release: (channel) => engine.send(channel ? { type: "release", channel } : { type: "release" }),
+  key: (channel) => engine.send({ type: "key", channel }),
+  select: (channel) => engine.send({ type: "select", channel }),
+});
+
+const timeline = new Timeline(byId("timeline"), {
+  edit: (edits, gesture) => engine.send(gesture ? { type: "edit", edits, gesture } : { type: "edit", edits }),
+  seek: (t_s) => engine.send({ type: "seek", t_s }),
+  say: (text) => (byId("twin").textContent = text),
+});
+
+// What the engine says
+
+function takeWelcome(message: Welcome): void {
+  welcome = message;
+  byId("file-name").textContent = message.file ?? `new script for ${message.rig}`;
+  byId("folder").textContent = message.folder;
+  document.title = `${message.file ?? message.rig} – Risorius studio`;
+  channels.use(message);
+  timeline.useChannels(message.channels);
+  const add = byId<HTMLSelectElement>("add");
+  add.replaceChildren(h("option", { value: "" }, "event…"), h("option", { value: "blink" }, "blink"));
+  for (const { name } of message.expressions) add.append(h("option", { value: `expression ${name}` }, name.replaceAll("_", " ")));
+  if (!message.steers) say("Another page steers; this one looks.");
+}
+
+function takeDocument(message: DocumentMessage): void {
+  script = message;
+  byId("dirty").hidden = !message.dirty;
+  byId<HTMLButtonElement>("undo").disabled = !message.undo;
+  byId<HTMLButtonElement>("redo").disabled = !message.redo;
+  const duration = byId<HTMLInputElement>("duration");
+  if (document.activeElement !== duration) duration.value = shown(message.duration_s, 3);
+  channels.useDocument(message);
+  timeline.useDocument(message);
+  timeline.useState(state ?? emptyState);
+}
+
+const emptyState = { t_s: 0, computed_s: 0 } as State;
+
+function takeState(message: State): void {
+  const started = state === null || state.playing !== message.playing;
+  state = message;
+  byId("clock").textContent = `${message.t_s.toFixed(2)} s`;
+  if (started) {
+    const play = byId("play");
+    play.classList.toggle("playing", message.playing);
+    play.setAttribute("aria-label", message.playing ? "Pause" : "Play");
+  }
+  byId("busy").textContent = message.computing ? `computing ${message.computed_s.toFixed(1)} s` : "";
+  const late = message.step_ms > 1000 / 60;
+  const connection = byId("connection");
+  connection.textContent = `${message.step_ms.toFixed(1)} ms a step`;
+  connection.classList.toggle("late", late);
+  channels.useState(message);
+  timeline.useState(message);
+  stage.showPulls(message.pulls);
+  if (message.resting || !message.playing) describe(message);
+}
+
+/// What is seen, as a sentence for those who do not see it.
+function describe(now: State): void {
+  if (!pose || !welcome) return;
+  const strong = welcome.columns
+    .map((name, column) => ({ name, value: pose!.activation[column] / 127 }))
+    .filter((one) => one.value > 0.1)
+    .sort((a, b) => b.value - a.value)
+    .slice(0, 3)
+    .map((one) => `${one.name.replace(/\.l$/, " left").replace(/\.r$/, " right").replaceAll("_", " ")} ${one.value.toFixed(1)}`);
+  const pulls = now.pulls.map((pull) => `pulled by ${pull.moved_mm.toFixed(1)} mm with ${pull.force_n.toFixed(2)} N`);
+  const text = [...strong, ...pulls].join(", ");
+  const twin = byId("twin");
+  if (twin.textContent !== text) twin.textContent = text;
+}
+
+function takeBinary(message: Binary): void {
+  switch (message.kind) {
+    case "scene": {
+      scene = message.scene;
+      stage.use(scene);
+      fillLandmarks(scene);
+      setSight(byId<HTMLSelectElement>("sight").value as Sight);
+      break;
+    }
+    case "picture":
+      stage.head?.usePicture(message.picture);
+      stage.changed();
+      break;
+    case "muscles":
+      stage.head?.useMuscles(message.muscles);
+      break;
+    case "pose":
+      pose = message.pose;
+      stage.take(pose);
+      channels.meters(pose);
+      // The next pose is asked for when this one is on the screen.
+      requestAnimationFrame(() => engine.credit());
+      document.body.dataset.step = String(pose.step);
+  }
+}
+
+function takeOther(message: Record<string, any>): void {
+  if (message.type === "error") say(String(message.message));
+  if (message.type === "saved") {
+    byId("file-name").textContent = message.path;
+    if (welcome) welcome.file = message.path;
+    say(`Saved ${message.path}`, true);
+  }
+  if (message.type === "steers") say("This page steers now.", true);
+  if (message.type === "files") showFiles(message.scripts, message.samples);
+}
+
+function connected(yes: boolean): void {
+  const place = byId("connection");
+  place.classList.toggle("on", yes);
+  place.classList.toggle("lost", !yes);
+  if (!yes) place.textContent = "no engine";
+  byId("lost").hidden = yes || script === null;
+}
+
+const engine = new RemoteEngine(location.hash.slice(1), {
+  welcome: takeWelcome,
+  document: takeDocument,
+  state: takeState,
+  binary: takeBinary,
+  other: takeOther,
+  connected,
+});
+
+// What the person does
+
+function setSight(sight: Sight): void {
+  byId<HTMLSelectElement>("sight").value = sight;
+  stage.show(sight);
+  engine.send({ type: "sights", strain: sight === "strain", muscles: sight === "muscles" });
+  const legend = byId("legend");
+  legend.hidden = sight !== "strain" && sight !== "muscles";
+  if (legend.hidden) return;
+  const canvas = h("canvas", { width: 170, height: 10, "aria-hidden": true });
+  const context = canvas.getContext("2d")!;
+  for (let x = 0; x < 170; x++) {
+    const part = x / 169;
+    const c = scene?.strain_colours[Math.round(255 * part)] ?? [0, 0, 0];
+    context.fillStyle =
+      sight === "muscles" ? `#${activationColour(part).getHexString()}` : `rgb(${c.map((v) => Math.round(255 * v)).join(",")})`;
+    context.fillRect(x, 0, 1, 10);
+  }
+  const ends = sight === "muscles" ? ["0", "1"] : ["−0.4", "0.4"];
+  legend.replaceChildren(
+    sight === "muscles" ? "activation" : "principal strain of the skin",
+    canvas,
+    h("div", {}, h("span", {}, ends[0]), h("span", {}, ends[1])),
+  );
+}
+
+function fillLandmarks(now: Scene): void {
+  const select = byId<HTMLSelectElement>("landmark");
+  select.replaceChildren(h("option", { value: "" }, "landmark…"));
+  for (const id of Object.keys(now.landmarks).sort()) select.append(h("option", { value: id }, id));
+}
+
+function setHand(on: boolean): void {
+  stage.hand = on;
+  byId("stage").classList.toggle("hand", on);
+  byId("tool-hand").setAttribute("aria-checked", String(on));
+  byId("tool-turn").setAttribute("aria-checked", String(!on));
+}
+
+function playOrPause(): void {
+  if (state?.playing) engine.send({ type: "pause" });
+  else
+    engine.send({
+      type: "play",
+      rate: Number(byId<HTMLSelectElement>("rate").value),
+      loop: byId<HTMLInputElement>("loop").checked,
+    });
+}
+
+function step(frames: number): void {
+  if (!state || !script) return;
+  engine.send({ type: "seek", t_s: Math.min(script.duration_s, Math.max(0, state.t_s + frames / 60)) });
+}
+
+function save(): void {
+  if (welcome?.file) {
+    void engine.ask({ type: "save" }).then((error) => {
+      if (error && /changed meanwhile/.test(error)) askName();
+    });
+  } else askName();
+}
+
+function askName(): void {
+  const name = byId<HTMLInputElement>("save-name");
+  name.value = welcome?.file ?? "script.json";
+  byId<HTMLDialogElement>("save-dialog").showModal();
+  name.select();
+}
+
+function showFiles(scripts: string[], samples: string[]): void {
+  const dialog = byId<HTMLDialogElement>("open-dialog");
+  const entry = (text: string, message: Record<string, unknown>) =>
+    h("li", {}, h("button", { onclick: () => (dialog.close(), engine.send(message)) }, text));
+  const list = (id: string, entries: HTMLElement[]) =>
+    byId(id).replaceChildren(...(entries.length > 0 ? entries : [h("li", { class: "hint" }, "none")]));
+  list("scripts", scripts.map((path) => entry(path, { type: "open", path })));
+  list("samples", samples.map((sample) => entry(sample.replaceAll("_", " "), { type: "open", sample })));
+  if (!dialog.open) dialog.showModal();
+}
+
+function addEvent(choice: string): void {
+  if (!choice || !script || !state) return;
+  const start_s = Math.round(state.t_s * 1000) / 1000;
+  const event = choice === "blink" ? { blink: {}, start_s } : { expression: choice.slice("expression ".length), start_s };
+  const events = script.script.events;
+  const edits: { path: string; value: unknown }[] = events ? [] : [{ path: "/events", value: [] }];
+  edits.push({ path: `/events/${events?.length ?? 0}`, value: event });
+  engine.send({ type: "edit", edits });
+}
+
+/// A copy without the engine: the browser saves it where it saves files.
+function download(): void {
+  if (!script) return;
+  const text = JSON.stringify(script.script, null, 2) + "\n";
+  const link = h("a", { href: URL.createObjectURL(new Blob([text], { type: "application/json" })), download: "script.json" });
+  link.click();
+}
+
+function on(id: string, type: string, does: () => void): void {
+  byId(id).addEventListener(type, does);
+}
+on("play", "click", playOrPause);
+on("to-start", "click", () => engine.send({ type: "seek", t_s: 0 }));
+on("undo", "click", () => engine.send({ type: "undo" }));
+on("redo", "click", () => engine.send({ type: "redo" }));
+on("save", "click", save);
+on("open", "click", () => engine.send({ type: "files" }));
+on("help", "click", () => byId<HTMLDialogElement>("help-dialog").showModal());
+on("copy", "click", download);
+on("tool-turn", "click", () => setHand(false));
+on("tool-hand", "click", () => setHand(true));
+on("sight", "change", () => setSight(byId<HTMLSelectElement>("sight").value as Sight));
+on("camera", "change", () => stage.look(Number(byId<HTMLSelectElement>("camera").value)));
+on("snap", "change", () => (timeline.snapKeys = byId<HTMLInputElement>("snap").checked));
+on("duration", "change", () => {
+  const value = Number(byId<HTMLInputElement>("duration").value);
+  engine.send({ type: "edit", edits: [{ path: "/duration_s", value }] });
+});
+on("landmark", "change", () => {
+  const select = byId<HTMLSelectElement>("landmark");
+  if (select.value && !stage.grabLandmark(select.value)) say(`Tissue does not move the landmark ${select.value}.`);
+  select.value = "";
+});
+on("add", "change", () => {
+  const select = byId<HTMLSelectElement>("add");
+  addEvent(select.value);
+  select.value = "";
+});
+byId<HTMLDialogElement>("save-dialog").addEventListener("close", () => {
+  const dialog = byId<HTMLDialogElement>("save-dialog");
+  if (dialog.returnValue !== "save") return;
+  const path = byId<HTMLInputElement>("save-name").value;
+  engine.send({ type: "save", path, overwrite: path === welcome?.file });
+});
+const cameraSelect = byId<HTMLSelectElement>("camera");
+cameras.forEach(({ name }, index) => cameraSelect.append(h("option", { value: index }, `${index + 1}  ${name}`)));
+for (const tab of document.querySelectorAll<HTMLButtonElement>(".tabs button"))
+  tab.addEventListener("click", () => {
+    document.body.dataset.panel = tab.dataset.panel;
+    for (const one of document.querySelectorAll<HTMLButtonElement>(".tabs button"))
+      one.setAttribute("aria-pressed", String(one === tab));
+  });
+
+document.addEventListener("keydown", (event) => {
+  const typing = event.target instanceof HTMLInputElement && !["range", "checkbox"].includes(event.target.type);
+  if (document.querySelector("dialog[open]")) return;
+  const command = event.ctrlKey || event.metaKey;
+  const key = event.key.toLowerCase();
+  if (command && key === "s") save();
+  else if (command && (key === "y" || (key === "z" && event.shiftKey))) engine.send({ type: "redo" });
+  else if (command && key === "z" && !typing) engine.send({ type: "undo" });
+  else if (command || typing || event.target instanceof HTMLSelectElement) return;
+  else if (key === " " && !(event.target instanceof HTMLButtonElement) ) playOrPause();
+  else if (key === "," || key === ".") step(key === "," ? -1 : 1);
+  else if (key === "home") engine.send({ type: "seek", t_s: 0 });
+  else if (key === "k" && channels.lastName) engine.send({ type: "key", channel: channels.lastName });
+  else if (key === "h") setHand(!stage.hand);
+  else if (key === "/") channels.focusSearch();
+  else if (key === "?") byId<HTMLDialogElement>("help-dialog").showModal();
+  else if (key === "escape") stage.letGoOfAll();
+  else if (/^[1-8]$/.test(key)) {
+    cameraSelect.value = String(Number(key) - 1);
+    stage.look(Number(key) - 1);
+  } else return;
+  event.preventDefault();
+});
+window.addEventListener("beforeunload", (event) => {
+  if (script?.dirty) event.preventDefault();
+});
+
+// For tests: where a vertex is on the screen.
+(window as any).studio = { screenOf: (vertex: number) => stage.screenOf(vertex), scene: () => scene, state: () => state, script: () => script };

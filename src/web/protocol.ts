@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// What the engine and the page say to one another, and how binary messages are read (view/detail/pose_frame.h, view/scene_frame.h).
+
+export interface Channel {
+  name: string;
+  group: string;
+  label: string;
+  min: number;
+  max: number;
+  sided: boolean;
+  unit: string;
+}
+
+export interface Expression {
+  name: string;
+  onset_s: number;
+  hold_s: number;
+  offset_s: number;
+}
+
+export interface Welcome {
+  type: "welcome";
+  rig: string;
+  file: string | null;
+  folder: string;
+  quality: string;
+  steers: boolean;
+  channels: Channel[];
+  columns: string[];
+  expressions: Expression[];
+}
+
+export type Key = [number, number];
+
+export interface Track {
+  keys: Key[];
+  interpolation?: string;
+  activation?: boolean;
+}
+
+/// An event as the script has it; one of the first four keys says which.
+export interface ScriptEvent {
+  expression?: string;
+  blink?: Record<string, unknown>;
+  idle?: unknown;
+  say?: unknown;
+  start_s?: number;
+  [key: string]: unknown;
+}
+
+export interface PullTrack {
+  vertex: number;
+  stiffness_n_per_m?: number;
+  keys_mm: [number, [number, number, number]][];
+}
+
+export interface Script {
+  duration_s: number;
+  fps?: number;
+  channels?: Record<string, Track>;
+  events?: ScriptEvent[];
+  pulls?: PullTrack[];
+  [key: string]: unknown;
+}
+
+export interface DocumentMessage {
+  type: "document";
+  script: Script;
+  revision: number;
+  dirty: boolean;
+  undo: boolean;
+  redo: boolean;
+  duration_s: number;
+  curves: Record<string, number[]>;
+}
+
+export type Vec = [number, number, number];
+
+export interface HeldPull {
+  pull: number;
+  vertex: number;
+  point_m: Vec;
+  hand_m: Vec;
+  force_n: number;
+  moved_mm: number;
+  stiffness_n_per_m: number;
+}
+
+export interface State {
+  type: "state";
+  tick: number;
+  t_s: number;
+  playing: boolean;
+  computing: boolean;
+  computed_s: number;
+  resting: boolean;
+  dirty: boolean;
+  step_ms: number;
+  overrides: Record<string, number>;
+  pulls: HeldPull[];
+  selected: { channel?: string; l?: { force_n: number; length_mm: number }; r?: { force_n: number; length_mm: number } };
+}
+
+export interface Surface {
+  material: string;
+  eye: number;
+  texture: number;
+  vertex: Uint32Array;
+  triangles: Uint32Array;
+  texcoords: Float32Array;
+}
+
+export interface Scene {
+  unit_m: number;
+  vertices: number;
+  vertex: Int32Array;
+  rest: Float32Array;
+  soft: Uint8Array;
+  surfaces: Surface[];
+  landmarks: Record<string, Vec>;
+  eyes: { centre: Vec; radius_m: number; iris_radius_m: number; pupil_radius_m: number; forward: Vec }[];
+  skin_tone: Vec;
+  lip_tone: Vec;
+  hair_tone: Vec;
+  iris_tone: Vec;
+  strain_colours: Vec[];
+}
+
+export interface Picture {
+  material: string;
+  width_px: number;
+  height_px: number;
+  rgba: Uint8Array;
+}
+
+export interface Muscles {
+  parts: { muscle: string; side: string; column: number; triangles: Uint32Array }[];
+  rest: Float32Array;
+}
+
+export interface Pose {
+  step: number;
+  t_s: number;
+  vertices: Int16Array;
+  drive: Int8Array;
+  activation: Int8Array;
+  strain: Int8Array | null;
+  muscles: Int16Array | null;
+}
+
+const enum Kind {
+  scene = 2,
+  picture = 3,
+  muscles = 4,
+}
+
+export type Binary =
+  | { kind: "pose"; pose: Pose }
+  | { kind: "scene"; scene: Scene }
+  | { kind: "picture"; picture: Picture }
+  | { kind: "muscles"; muscles: Muscles };
+
+interface Place {
+  at: number;
+  count: number;
+}
+
+function decodePose(data: ArrayBuffer): Pose {
+  const view = new DataView(data);
+  const flags = view.getUint8(1);
+  const columns = view.getUint16(2, true);
+  const count = view.getUint32(44, true);
+  let at = 48;
+  const vertices = new Int16Array(data, at, 3 * count);
+  at += 6 * count;
+  const drive = new Int8Array(data, at, columns);
+  at += columns;
+  const activation = new Int8Array(data, at, columns);
+  at += columns;
+  let strain: Int8Array | null = null;
+  if (flags & 1) {
+    strain = new Int8Array(data, at, count);
+    at += count;
+  }
+  let muscles: Int16Array | null = null;
+  if (flags & 2) {
+    const rows = view.getUint32(at, true);
+    muscles = new Int16Array(data.slice(at + 4, at + 4 + 6 * rows));
+  }
+  return { step: view.getUint32(4, true), t_s: view.getFloat64(8, true), vertices, drive, activation, strain, muscles };
+}
+
+export function decode(data: ArrayBuffer): Binary {
+  const view = new DataView(data);
+  if (view.getUint8(0) === 1) return { kind: "pose", pose: decodePose(data) };
+  const kind = view.getUint32(0, true);
+  const length = view.getUint32(4, true);
+  const head = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 8, length)));
+  const begin = 8 + length;
+  const u32 = (p: Place) => new Uint32Array(data, begin + p.at, p.count);
+  const f32 = (p: Place) => new Float32Array(data, begin + p.at, p.count);
+  const u8 = (p: Place) => new Uint8Array(data, begin + p.at, p.count);
+  if (kind === Kind.scene) {
+    const surfaces = head.surfaces.map((s: Record<string, any>) => ({
+      ...s,
+      vertex: u32(s.vertex),
+      triangles: u32(s.triangles),
+      texcoords: f32(s.texcoords),
+    }));
+    const vertex = new Int32Array(data, begin + head.vertex.at, head.vertex.count);
+    return { kind: "scene", scene: { ...head, vertex, rest: f32(head.rest), soft: u8(head.soft), surfaces } };
+  }
+  if (kind === Kind.picture) return { kind: "picture", picture: { ...head, rgba: u8(head.rgba) } };
+  if (kind === Kind.muscles) {
+    const parts = head.parts.map((p: Record<string, any>) => ({ ...p, triangles: u32(p.triangles) }));
+    return { kind: "muscles", muscles: { parts, rest: f32(head.rest) } };
+  }
+  throw new Error(`a message of an unknown kind ${kind}`);
+}

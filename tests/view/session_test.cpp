@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// A session on the adult: what is played is what is rendered, and the same messages give the same poses.
+#include "risorius/view/session.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "face/adult_face.h"
+#include "risorius/core/json_text.h"
+#include "risorius/track/timeline.h"
+
+namespace risorius::view {
+namespace {
+
+Json smile() {
+    return Json::parse(R"({"format": "risorius-script", "version": 1, "rig": "rig.json",
+        "duration_s": 0.5, "channels": {"AU12": {"keys": [[0, 0], [0.2, 0.8]]},
+        "jaw_open": {"keys": [[0, 0], [0.3, 0.3]]}}, "events": [{"blink": {}, "start_s": 0.1}]})");
+}
+
+SessionInputs inputs(const Json& script) {
+    auto files = std::make_shared<scene::RigFiles>();
+    files->file = rig::adult_rig_file();
+    files->rig = rig::adult().rig;
+    files->mesh = rig::adult().mesh;
+    return {files, JsonCursor::from_json(script, "script.json"), "preview",
+            [files](const JsonCursor& json) {
+                return track::read_script(json, files->rig.channels(), files->rig.facs,
+                                          files->rig.expressions);
+            }};
+}
+
+std::string message(const Json& json) { return json_text(json); }
+
+Json state_of(const Session& session) { return Json::parse(session.state()); }
+
+Vec3 point_of(const Session& session, int vertex) {
+    const Points all = session.drawn_scene().rest;
+    return all.row(vertex).transpose();
+}
+
+TEST(Session, PlaysWhatTheScriptIs) {
+    Session session(inputs(smile()));
+    session.receive(message({{"type", "play"}}));
+    for (int i = 0; i < 200 && state_of(session)["t_s"].get<double>() < 0.4 - 1e-9; ++i)
+        session.tick();
+    const PoseFrame shown = decode_pose(session.pose(), session.unit_m());
+
+    face::Face face = face::adult_face();
+    const auto script = inputs(smile()).read(JsonCursor::from_json(smile(), "script.json"));
+    const track::Timeline timeline(script, rig::adult().rig.channels());
+    const auto drive = [&](double t) { return timeline.at(t); };
+    face.start(drive);
+    face.set_gravity(script.header.gravity_m_s2);
+    const face::FacePose pose = face.pose_at(0.4, drive);
+    const DrawnVertices drawn = drawn_vertices(session.drawn_scene());
+    EXPECT_LE((drawn.of(pose.vertices) - shown.vertices).cwiseAbs().maxCoeff(), 0.005e-3 + 1e-9);
+    EXPECT_GT((drawn.of(session.drawn_scene().rest) - shown.vertices).cwiseAbs().maxCoeff(), 3e-3);
+    // Seeking back shows the same moment again, without simulation.
+    session.receive(message({{"type", "pause"}}));
+    const std::string before = session.pose();
+    session.receive(message({{"type", "seek"}, {"t_s", 0.1}}));
+    EXPECT_TRUE(session.tick());
+    EXPECT_NE(session.pose().substr(48), before.substr(48));
+    session.receive(message({{"type", "seek"}, {"t_s", 0.4}}));
+    session.tick();
+    EXPECT_EQ(session.pose().substr(48), before.substr(48));
+}
+
+TEST(Session, APullMovesTheSkinAndIsRecordedForRender) {
+    Session session(inputs(smile()));
+    const int vertex = rig::adult().vertex("ch_l");
+    const Vec3 p = point_of(session, vertex);
+    session.receive(message({{"type", "pull"},
+                             {"pull", 1},
+                             {"vertex", vertex},
+                             {"record", true},
+                             {"point_m", {p.x(), p.y(), p.z()}},
+                             {"stiffness_n_per_m", 500}}));
+    for (int i = 1; i <= 20; ++i) {
+        session.receive(message(
+            {{"type", "pull_to"}, {"pull", 1}, {"point_m", {p.x() + 5e-4 * i, p.y(), p.z()}}}));
+        EXPECT_TRUE(session.tick());
+    }
+    const Json pulls = state_of(session)["pulls"];
+    ASSERT_EQ(pulls.size(), 1u);
+    EXPECT_GT(pulls[0]["moved_mm"], 6);
+    EXPECT_GT(pulls[0]["force_n"], 0.1);
+    const auto replies = session.receive(message({{"type", "pull_end"}, {"pull", 1}}));
+    ASSERT_EQ(replies.size(), 1u);
+    const Json script = Json::parse(replies[0])["script"];
+    ASSERT_EQ(script["pulls"].size(), 1u);
+    EXPECT_EQ(script["pulls"][0]["vertex"], vertex);
+    EXPECT_EQ(script["pulls"][0]["keys_mm"].size(), 2u);  // the hand moved straight
+    for (int i = 0; i < 200 && session.tick(); ++i) {
+    }
+    EXPECT_TRUE(state_of(session)["resting"]);
+    EXPECT_LT((decode_pose(session.pose(), session.unit_m()).vertices -
+               drawn_vertices(session.drawn_scene()).of(session.drawn_scene().rest))
+                  .cwiseAbs()
+                  .maxCoeff(),
+              0.5e-3);
+    // The recorded pull belongs to the script now: it plays.
+    session.receive(message({{"type", "edit"}, {"edits", Json::array({{{"path", "/channels"}}})}}));
+    session.receive(message({{"type", "seek"}, {"t_s", 0.3}}));
+    for (int i = 0; i < 100 && !session.tick(); ++i) {
+    }
+    EXPECT_GT((decode_pose(session.pose(), session.unit_m()).vertices -
+               drawn_vertices(session.drawn_scene()).of(session.drawn_scene().rest))
+                  .col(0)
+                  .maxCoeff(),
+              6e-3);
+    session.receive(message({{"type", "undo"}}));
+    session.receive(message({{"type", "undo"}}));
+    EXPECT_FALSE(Json::parse(session.document())["script"].contains("pulls"));
+}
+
+TEST(Session, OverridesBecomeKeysAndEditsInvalidateOnlyWhatFollows) {
+    Session session(inputs(smile()));
+    session.receive(message({{"type", "seek"}, {"t_s", 0.5}}));
+    for (int i = 0; i < 100 && !session.tick(); ++i) {
+    }
+    EXPECT_NEAR(state_of(session)["computed_s"].get<double>(), 0.5, 1e-9);
+    session.receive(message({{"type", "override"}, {"channel", "AU4"}, {"value", 0.6}}));
+    for (int i = 0; i < 20; ++i) EXPECT_TRUE(session.tick());
+    EXPECT_EQ(state_of(session)["overrides"]["AU4"], 0.6);
+    session.receive(message({{"type", "seek"}, {"t_s", 0.25}}));
+    session.receive(message({{"type", "key"}, {"channel", "AU4"}}));
+    EXPECT_TRUE(state_of(session)["overrides"].empty());
+    Json document = Json::parse(session.document());
+    EXPECT_EQ(document["script"]["channels"]["AU4"]["keys"], Json::parse("[[0.25, 0.6]]"));
+    EXPECT_EQ(state_of(session)["computed_s"], 0);  // one key holds from the start
+    session.receive(message({{"type", "undo"}}));
+    session.receive(message({{"type", "seek"}, {"t_s", 0.5}}));
+    for (int i = 0; i < 100 && !session.tick(); ++i) {
+    }
+    session.receive(message(
+        {{"type", "edit"},
+         {"edits", Json::array({{{"path", "/channels/AU12/keys/2"}, {"value", {0.4, 0.1}}}})}}));
+    EXPECT_NEAR(state_of(session)["computed_s"].get<double>(), 0.2, 0.02);
+}
+
+TEST(Session, SaysWhatIsWrongAndGoesOn) {
+    Session session(inputs(smile()));
+    const auto error = [&](const Json& json) {
+        const auto replies = session.receive(message(json));
+        return replies.empty() ? "none" : Json::parse(replies[0])["message"].get<std::string>();
+    };
+    EXPECT_EQ(error({{"type", "play_"}}),
+              "message:/type: expected a message of the studio (did you mean \"play\"?), found "
+              "\"play_\"");
+    EXPECT_EQ(error({{"type", "pull"}, {"pull", 1}, {"vertex", -4}, {"point_m", {0, 0, 0}}}),
+              "message:/vertex: expected an integer in [0, " +
+                  std::to_string(rig::adult().mesh.vertex_count() - 1) + "], found -4");
+    EXPECT_EQ(
+        error({{"type", "edit"},
+               {"edits", Json::array({{{"path", "/channels/AU12/keys"}, {"value", {{0, 7}}}}})}}),
+        "script.json:/channels/AU12/keys/0/1: expected [0, 1], found 7");
+    EXPECT_EQ(session.receive("{").size(), 1u);
+    EXPECT_EQ(session.receive("[1]").size(), 1u);
+    EXPECT_EQ(Json::parse(session.document())["script"], smile());
+}
+
+TEST(Session, TheSameMessagesGiveTheSamePoses) {
+    std::mt19937 random(11);
+    Session session(inputs(smile()));
+    const std::vector<int> vertices{rig::adult().vertex("ch_l"), rig::adult().vertex("li"),
+                                    rig::adult().vertex("g")};
+    const auto number = [&] { return (random() >> 8) * 0x1p-24; };
+    for (int i = 0; i < 60; ++i) {
+        const int hand = static_cast<int>(random() % 2);
+        const int vertex = vertices[random() % vertices.size()];
+        const Vec3 p = point_of(session, vertex) + Vec3(number(), number(), number()) * 8e-3;
+        switch (random() % 7) {
+            case 0:
+            case 1:
+                session.receive(message({{"type", "pull"},
+                                         {"pull", hand},
+                                         {"vertex", vertex},
+                                         {"record", random() % 3 == 0},
+                                         {"point_m", {p.x(), p.y(), p.z()}}}));
+                break;
+            case 2:
+                session.receive(message({{"type", "pull_end"}, {"pull", hand}}));
+                break;
+            case 3:
+                session.receive(
+                    message({{"type", "override"}, {"channel", "AU2"}, {"value", number()}}));
+                break;
+            case 4:
+                session.receive(message({{"type", random() % 2 ? "undo" : "redo"}}));
+                break;
+            case 5:
+                session.receive(message({{"type", "play"}}));
+                break;
+            default:
+                session.receive(message(
+                    {{"type", "edit"},
+                     {"edits",
+                      Json::array({{{"path", "/channels/AU12/keys/1/1"}, {"value", number()}}})}}));
+        }
+        for (unsigned step = random() % 4; step > 0; --step) session.tick();
+    }
+    Session again(inputs(smile()));
+    replay(session.log(), again);
+    while (again.ticks() < session.ticks()) again.tick();
+    EXPECT_EQ(again.script_text(), session.script_text());
+    EXPECT_EQ(again.pose(), session.pose());
+    // What has been saved is a script.
+    EXPECT_NO_THROW(inputs(smile()).read(
+        JsonCursor::from_json(Json::parse(session.script_text()), "saved.json")));
+}
+
+}  // namespace
+}  // namespace risorius::view

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: MIT
+#include "tools/risorius/studio.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "risorius/core/data_folder.h"
+#include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/output_set.h"
+#include "risorius/render/offscreen_view.h"
+#include "risorius/report/atomic_file.h"
+#include "risorius/talk/say_event.h"
+#include "risorius/view/document.h"
+#include "risorius/view/scene_frame.h"
+
+namespace risorius::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr long kTicksWithoutPage = 60 * 60;  // a minute
+constexpr int kFirstCredit = 2;
+constexpr std::size_t kMostWaiting = 8;  // messages; a page that does not read gets no poses
+constexpr int kSkinPicture_px = 1024, kPartPicture_px = 256;
+
+Json new_script(const fs::path& rig) {
+    return Json{{"format", "risorius-script"}, {"version", 1},
+                {"rig", rig.generic_string()}, {"duration_s", 4},
+                {"channels", Json::object()},  {"events", Json::array()}};
+}
+
+/// The format that a JSON file says it has.
+std::string format_of(const Json& json) {
+    return json.is_object() && json.contains("format") && json["format"].is_string()
+               ? json["format"].get<std::string>()
+               : "";
+}
+
+std::string error_text(const Json& id, const std::string& text) {
+    return json_text(Json{{"type", "error"}, {"id", id}, {"message", text}});
+}
+
+/// The pictures of what a scene has no pictures for.
+std::vector<std::shared_ptr<const std::string>> painted(const render::Scene& scene) {
+    std::vector<std::shared_ptr<const std::string>> out;
+    const auto add = [&](const char* material, const Image& picture) {
+        out.push_back(std::make_shared<const std::string>(view::encode_picture(material, picture)));
+    };
+    if (!scene.textures.empty()) {
+        for (std::size_t i = 0; i < scene.textures.size(); ++i)
+            add(std::to_string(i).c_str(), scene.textures[i]);
+    }
+    const auto textured = [&](render::Material material) {
+        return std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const auto& one) {
+            return one.material == material && one.texture < 0 && one.texcoords.rows() > 0;
+        });
+    };
+    const render::OffscreenView view(
+        scene, {.width_px = kSkinPicture_px / 2, .height_px = kSkinPicture_px / 2});
+    if (textured(render::Material::kSkin)) add("skin", view.skin_texture(scene, kSkinPicture_px));
+    for (const auto& [material, name] : {std::pair{render::Material::kEye, "eye"},
+                                         {render::Material::kTeeth, "teeth"},
+                                         {render::Material::kGums, "gums"},
+                                         {render::Material::kTongue, "tongue"}})
+        if (textured(material)) add(name, view.part_texture(scene, material, kPartPicture_px));
+    return out;
+}
+
+}  // namespace
+
+Studio::Studio(const fs::path& file, const std::string& quality) : quality_(quality) {
+    const fs::path given = file.empty() ? data_folder() / "rigs" / "adult" / "rig.json" : file;
+    const fs::path place = file.empty() ? fs::current_path() : fs::absolute(file).parent_path();
+    folder_ = fs::weakly_canonical(place);
+    open(given);
+}
+
+Studio::~Studio() = default;
+
+void Studio::open(const fs::path& file) {
+    OpenScript opened;
+    const std::string text = read_json_text(file);
+    JsonCursor json = parse_json_text(text, file);
+    if (format_of(json.json()) == "risorius-rig") {
+        json = JsonCursor::from_json(new_script(fs::absolute(file)),
+                                     (folder_ / "script.json").string());
+    } else {
+        opened.file = fs::absolute(file);
+        opened.on_disk = text;
+    }
+    const track::ScriptHeader header = track::read_script_header(json);
+    const std::shared_ptr<const animate::RigInput> rig = inputs_.rig(header.rig_file);
+    const std::shared_ptr<const scene::RigFiles> files(rig, &rig->files);
+    opened.session = std::make_unique<view::Session>(view::SessionInputs{
+        files, json, quality_, [this, files](const JsonCursor& script) {
+            const track::ScriptHeader head = track::read_script_header(script);
+            if (fs::weakly_canonical(head.rig_file) != fs::weakly_canonical(files->file))
+                script.at("rig").fail("the rig that is open; open the script anew for another");
+            track::ScriptDescription read = track::read_script(
+                script, files->rig.channels(), files->rig.facs, files->rig.expressions);
+            talk::add_to_script(
+                talk::plan_speech(read.says, read.header, *files, inputs_.mouth_poses()), read);
+            return read;
+        }});
+    script_ = std::move(opened);
+    pictures_.clear();
+    scene_ = std::make_shared<const std::string>(script_.session->scene());
+}
+
+void Studio::run(serve::WebServer& server, const std::function<bool()>& stopped) {
+    server_ = &server;
+    const serve::Handler handler{
+        .opened = [this](serve::Peer& peer) { opened(peer); },
+        .text = [this](serve::Peer& peer, const std::string& message) { text(peer, message); },
+        .closed = [this](serve::Peer& peer) { closed(peer); },
+        .tick = [this] { tick(); }};
+    make_pictures(server);
+    server.run(handler, [&] { return stopped() || idle_ticks_ > kTicksWithoutPage; });
+    painter_.reset();
+    if (script_.session->dirty()) write_recovery();
+}
+
+// The pictures take seconds to paint: the face moves meanwhile.
+void Studio::make_pictures(serve::WebServer& server) {
+    painter_ = std::make_unique<std::jthread>(
+        [this, &server, scene = script_.session->drawn_scene(), of = script_.session.get()] {
+            std::vector<std::shared_ptr<const std::string>> pictures;
+            try {
+                pictures = painted(scene);
+            } catch (const std::exception&) {
+                return;  // the page has plain colours
+            }
+            server.post([this, pictures = std::move(pictures), of] {
+                if (script_.session.get() != of) return;
+                pictures_ = pictures;
+                for (const Page& page : pages_)
+                    for (const auto& picture : pictures_) page.peer->send_binary(picture);
+            });
+        });
+}
+
+Studio::Page* Studio::page_of(const serve::Peer& peer) {
+    const auto found = std::find_if(pages_.begin(), pages_.end(),
+                                    [&](const Page& page) { return page.peer == &peer; });
+    return found == pages_.end() ? nullptr : &*found;
+}
+
+void Studio::greet(Page& page) {
+    page.has_muscles = page.wants_muscles = false;
+    Json welcome = json_or_null(script_.session->welcome());
+    welcome["steers"] = page.peer == pages_.front().peer;
+    welcome["folder"] = folder_.string();
+    welcome["file"] =
+        script_.file.empty() ? Json() : Json(script_.file.lexically_proximate(folder_).string());
+    page.peer->send_text(json_text(welcome));
+    page.peer->send_binary(scene_);
+    page.peer->send_text(script_.session->document());
+    for (const auto& picture : pictures_) page.peer->send_binary(picture);
+    page.credit = kFirstCredit;
+    pose_waits_ = true;
+}
+
+void Studio::opened(serve::Peer& peer) {
+    pages_.push_back({&peer});
+    ever_seen_ = true;
+    idle_ticks_ = 0;
+    greet(pages_.back());
+}
+
+void Studio::closed(serve::Peer& peer) {
+    const bool steered = !pages_.empty() && pages_.front().peer == &peer;
+    std::erase_if(pages_, [&](const Page& page) { return page.peer == &peer; });
+    if (!steered) return;
+    // Nobody holds the skin any more.
+    const Json state = json_or_null(script_.session->state());
+    for (const Json& pull : state["pulls"])
+        script_.session->receive(json_text(Json{{"type", "pull_end"}, {"pull", pull["pull"]}}));
+    if (!pages_.empty())
+        pages_.front().peer->send_text(json_text(Json{{"type", "steers"}, {"steers", true}}));
+}
+
+void Studio::tell_all(const std::string& message) {
+    for (const Page& page : pages_) page.peer->send_text(message);
+}
+
+void Studio::text(serve::Peer& peer, const std::string& message) {
+    Page* page = page_of(peer);
+    if (!page) return;
+    const Json json = json_or_null(message);
+    const auto field = [&](const char* key) {
+        return json.is_object() && json.contains(key) ? json[key] : Json();
+    };
+    const Json type = field("type");
+    const auto is = [&](const char* name) { return type == Json(name); };
+    if (is("credit")) {
+        page->credit = std::min(page->credit + 1, kFirstCredit);
+        return;
+    }
+    if (is("files")) {
+        peer.send_text(files());
+        return;
+    }
+    if (page != &pages_.front()) {
+        peer.send_text(error_text(field("id"), "this page only looks: another one steers"));
+        return;
+    }
+    try {
+        const JsonCursor cursor = JsonCursor::from_json(json, "message");
+        if (is("save")) {
+            save(cursor);
+        } else if (is("open")) {
+            const auto sample = cursor.find("sample");
+            const fs::path file = sample ? data_folder() / "samples" /
+                                               fs::path(sample->string()).filename() / "script.json"
+                                         : in_project(cursor.at("path"));
+            if (script_.session->dirty()) write_recovery();
+            open(file);
+            for (Page& one : pages_) greet(one);
+            make_pictures(*server_);
+        } else {
+            if (is("sights")) page->wants_muscles = field("muscles") == Json(true);
+            if (page->wants_muscles &&
+                !std::exchange(page->has_muscles, page->wants_muscles || page->has_muscles))
+                peer.send_binary(std::make_shared<const std::string>(script_.session->muscles()));
+            for (const std::string& reply : script_.session->receive(message))
+                if (json_or_null(reply)["type"] == "document")
+                    tell_all(reply);
+                else
+                    peer.send_text(reply);
+            pose_waits_ = true;
+        }
+    } catch (const Error& error) {
+        peer.send_text(error_text(field("id"), error.what()));
+    } catch (const RunError& error) {
+        peer.send_text(error_text(field("id"), error.what()));
+    }
+}
+
+void Studio::tick() {
+    idle_ticks_ = pages_.empty() && ever_seen_ ? idle_ticks_ + 1 : 0;
+    if (pages_.empty()) return;
+    const auto begin = std::chrono::steady_clock::now();
+    const bool moved = script_.session->tick();
+    if (moved) {
+        const std::chrono::duration<double, std::milli> took =
+            std::chrono::steady_clock::now() - begin;
+        step_ms_ += 0.1 * (took.count() - step_ms_);
+    }
+    for (const std::string& event : script_.session->events()) tell_all(event);
+    send_pose(moved);
+}
+
+/// A pose goes to every page that is ready for one. What a slow page misses is left out; the steps are not.
+void Studio::send_pose(bool moved) {
+    pose_waits_ = pose_waits_ || moved;
+    if (!pose_waits_) return;
+    const bool any = std::any_of(pages_.begin(), pages_.end(), [](const Page& page) {
+        return page.credit > 0 && page.peer->waiting() < kMostWaiting;
+    });
+    if (!any) return;
+    pose_waits_ = false;
+    const auto pose = std::make_shared<const std::string>(script_.session->pose());
+    Json state = json_or_null(script_.session->state());
+    state["step_ms"] = std::round(step_ms_ * 10) / 10;
+    const std::string text = json_text(state);
+    for (Page& page : pages_) {
+        if (page.credit == 0 || page.peer->waiting() >= kMostWaiting) continue;
+        --page.credit;
+        page.peer->send_text(text);
+        page.peer->send_binary(pose);
+    }
+}
+
+// Files
+
+/// A file below the project, with links resolved.
+fs::path Studio::in_project(const JsonCursor& name) const {
+    const std::string text = name.string();
+    const fs::path file = fs::weakly_canonical(folder_ / fs::path(text));
+    const fs::path below = file.lexically_relative(folder_);
+    const bool inside = !text.empty() && !below.empty() && *below.begin() != ".." && below != ".";
+    if (!inside || file.extension() != ".json") name.fail("a file .json below " + folder_.string());
+    return file;
+}
+
+void Studio::save(const JsonCursor& message) {
+    message.allow_keys({"type", "id", "path", "overwrite"});
+    const auto path = message.find("path");
+    if (!path && script_.file.empty()) message.fail("a name for the script", "none");
+    const bool asked = message.has("overwrite") && message.at("overwrite").boolean();
+    const fs::path file =
+        path ? in_project(*path)
+             : in_project(JsonCursor::from_json(
+                   Json(script_.file.lexically_proximate(folder_).string()), "save"));
+    const bool same = !script_.file.empty() && file == fs::weakly_canonical(script_.file);
+    if (!asked && fs::exists(file) && (!same || read_json_text(file) != script_.on_disk))
+        message.fail("a file that nobody has changed meanwhile, or consent to replace it",
+                     in_quotes(file.filename().string()));
+    std::string text = script_.session->script_text();
+    if (!same) {
+        Json moved = json_or_null(text);
+        const JsonCursor now =
+            parse_json_text(text, script_.file.empty() ? folder_ / "script.json" : script_.file);
+        const fs::path rig = fs::weakly_canonical(fs::absolute(now.at("rig").path()));
+        const fs::path relative = rig.lexically_relative(file.parent_path());
+        moved["rig"] = relative.empty() ? rig.generic_string() : relative.generic_string();
+        text = view::Document(moved).text();
+    }
+    OutputSet outputs(file.parent_path(), OutputSet::Then::kRunGoesOn);
+    report::write_text(outputs.file(file), text);
+    outputs.commit();
+    script_.session->saved();
+    script_.file = file;
+    script_.on_disk = text;
+    tell_all(json_text(
+        Json{{"type", "saved"}, {"path", file.lexically_proximate(folder_).generic_string()}}));
+    tell_all(script_.session->document());
+}
+
+std::string Studio::files() const {
+    Json scripts = Json::array(), samples = Json::array();
+    constexpr int kMost = 200;
+    std::error_code ignored;
+    std::vector<fs::path> found;
+    for (fs::recursive_directory_iterator at(folder_, fs::directory_options::skip_permission_denied,
+                                             ignored);
+         at != fs::recursive_directory_iterator() && found.size() < kMost; at.increment(ignored)) {
+        if (at.depth() > 2) at.disable_recursion_pending();
+        if (at->path().filename().string().starts_with(".")) at.disable_recursion_pending();
+        if (at->path().filename() == "script.json" ||
+            at->path().filename().string().ends_with(".script.json"))
+            found.push_back(at->path());
+    }
+    std::sort(found.begin(), found.end());
+    for (const fs::path& file : found)
+        scripts.push_back(file.lexically_relative(folder_).generic_string());
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(data_folder() / "samples", ignored))
+        if (fs::exists(entry.path() / "script.json"))
+            names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    for (const std::string& name : names) samples.push_back(name);
+    return json_text(Json{{"type", "files"}, {"scripts", scripts}, {"samples", samples}});
+}
+
+void Studio::write_recovery() const {
+    const fs::path near = script_.file.empty() ? folder_ / "script.json" : script_.file;
+    const fs::path file = folder_ / (near.stem().string() + ".recovered.json");
+    try {
+        OutputSet outputs(file.parent_path(), OutputSet::Then::kRunGoesOn);
+        report::write_text(outputs.file(file), script_.session->script_text());
+        outputs.commit();
+    } catch (const std::exception&) {
+        // The disk is full or read-only, and nobody is left to be told.
+    }
+}
+
+}  // namespace risorius::cli

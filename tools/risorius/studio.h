@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// The studio: a session, the server of its page, and the files that the page may read and write.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "risorius/animate/render_inputs.h"
+#include "risorius/serve/web_server.h"
+#include "risorius/view/session.h"
+
+namespace risorius::cli {
+
+/// A script that is open, and its file.
+struct OpenScript {
+    std::filesystem::path file;  ///< where it is saved; empty: it has no name yet
+    std::string on_disk;         ///< the bytes of the file when it was read or written last
+    std::unique_ptr<view::Session> session;
+};
+
+/// Connects the pages with the session. All members run on the thread of the server.
+class Studio {
+  public:
+    /// `file`: a script, a rig, or nothing for the adult. Files are read and written below the folder of the file, or the current
+    /// one. Throws Error.
+    Studio(const std::filesystem::path& file, const std::string& quality);
+    ~Studio();
+
+    /// Serves until `stopped` returns true, or for a minute after the last page is closed. What is not saved then is written beside
+    /// the script as NAME.recovered.json.
+    void run(serve::WebServer& server, const std::function<bool()>& stopped);
+
+  private:
+    struct Page {
+        serve::Peer* peer;
+        int credit = 0;  ///< poses that the page is ready for
+        bool has_muscles = false;
+        bool wants_muscles = false;
+    };
+
+    void open(const std::filesystem::path& file);
+    void opened(serve::Peer& peer);
+    void text(serve::Peer& peer, const std::string& message);
+    void closed(serve::Peer& peer);
+    void tick();
+    void greet(Page& page);
+    void tell_all(const std::string& message);
+    void send_pose(bool always);
+    void save(const JsonCursor& message);
+    std::string files() const;
+    void write_recovery() const;
+    void make_pictures(serve::WebServer& server);
+    Page* page_of(const serve::Peer& peer);
+    std::filesystem::path in_project(const JsonCursor& name) const;
+
+    std::string quality_;
+    std::filesystem::path folder_;  ///< the project: canonical
+    animate::RenderInputs inputs_;
+    OpenScript script_;
+    std::vector<Page> pages_;
+    std::vector<std::shared_ptr<const std::string>> pictures_;
+    std::shared_ptr<const std::string> scene_;
+    serve::WebServer* server_ = nullptr;
+    std::unique_ptr<std::jthread> painter_;
+    bool pose_waits_ = false, ever_seen_ = false;
+    long idle_ticks_ = 0;
+    double step_ms_ = 0;
+};
+
+}  // namespace risorius::cli
