@@ -17,6 +17,7 @@
 #include "risorius/render/detail/framebuffer.h"
 #include "risorius/render/detail/gl_context.h"
 #include "risorius/render/detail/lights.h"
+#include "risorius/render/detail/lock_layer.h"
 #include "risorius/render/detail/materials.h"
 #include "risorius/render/detail/muscle_layer.h"
 #include "risorius/render/detail/occlusion.h"
@@ -78,6 +79,7 @@ Box skin_box(const Scene& scene) {
 Scene without_hair(Scene scene) {
     scene.appearance.scalp_hair = scene.appearance.hair_length_mm =
         scene.appearance.beard_length_mm = 0;
+    scene.appearance.hair_style = "shaven";
     return scene;
 }
 
@@ -160,6 +162,10 @@ struct OffscreenView::Impl {
         buffers->set_occlusion(baked->sky, baked->inside);
         const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
         hair = std::make_unique<StrandLayer>(scene, baked->hair, camera, sample_m, lit);
+        locks = std::make_unique<LockLayer>(
+            scene, looks_inside() ? Hair{} : plan_hair(scene, plan_skin(scene, centre), centre),
+            camera, lit, shaded_per_side() < options.supersampling);
+        buffers->hide(locks->covered());
         sockets = std::make_unique<SocketLayer>(scene, marks, lit);
         tears = std::make_unique<TearLayer>(scene, lit);
         buffers->bind();
@@ -282,6 +288,7 @@ struct OffscreenView::Impl {
         lights.reset();
         materials.reset();
         hair.reset();
+        locks.reset();
         tears.reset();
         sockets.reset();
         shells.reset();
@@ -298,6 +305,8 @@ struct OffscreenView::Impl {
         skin_layer->use();
         for (const Batch& batch : buffers->batches())
             if (batch.material == Material::kSkin) buffers->draw(batch);
+        locks->look_up(cells);
+        buffers->bind();
     }
 
     /// Draws all visible surfaces. `looked_up`: the skin is already drawn.
@@ -314,6 +323,7 @@ struct OffscreenView::Impl {
             }
         }
         materials->done();
+        if (!pose.values && !looked_up) locks->draw();
         sockets->draw();
         buffers->bind();
         shells->draw();
@@ -334,12 +344,15 @@ struct OffscreenView::Impl {
         const bool looked_up = skin_layer && !pose.values;
         if (looked_up) {
             skin_layer->begin(tile.width, tile.height);
+            locks->draw();  // before the skin, which is then not shaded where hair hides it
+            buffers->bind();
             for (const Batch& batch : buffers->batches())
                 if (batch.material == Material::kSkin) materials->draw_skin(batch, *buffers);
             cells.begin(tile.width, tile.height);
             buffers->leave_out_unseen(*skin_layer, cells, [&](PictureCells& marked) {
                 if (!shells->empty()) marked.mark_all();
                 hair->mark(clip, marked);
+                locks->touch(clip, marked);
                 tears->mark(clip, marked);
                 sockets->mark(clip, marked);
             });
@@ -389,6 +402,7 @@ struct OffscreenView::Impl {
     std::unique_ptr<BoneLayer> bones;      ///< only with Show::kSkull
     std::unique_ptr<Materials> materials;
     std::unique_ptr<StrandLayer> hair;
+    std::unique_ptr<LockLayer> locks;
     std::unique_ptr<SocketLayer> sockets;
     std::unique_ptr<TearLayer> tears;
     std::unique_ptr<ShellLayer> shells;
@@ -437,13 +451,15 @@ Image OffscreenView::draw(const Pose& pose) {
     if (view.muscles) view.muscles->upload(pose);
     if (view.bones) view.bones->upload(pose);
     view.hair->upload(pose, view.marks);
+    if (!pose.values) view.locks->upload(pose);
     view.tears->upload(pose, view.marks);
     view.sockets->upload(pose, view.marks);
 
     // Shadow of the key light
     FrameUniforms frame = view.lights->uniforms(view.marks.mouth_gap(pose));
     const Eigen::Matrix4f seen = view.views.front().cast<float>();
-    view.lights->draw_shadow(*view.buffers, view.views.size() == 1 ? &seen : nullptr);
+    view.lights->draw_shadow(*view.buffers, view.views.size() == 1 ? &seen : nullptr,
+                             pose.values ? nullptr : view.locks.get());
     glActiveTexture(GL_TEXTURE0 + kPaintUnit);
     glBindTexture(GL_TEXTURE_2D, view.baked->paint_map);
     glActiveTexture(GL_TEXTURE0 + kPoreUnit);

@@ -70,6 +70,10 @@ struct Appearance {
     /// 0..1, young to old: spots, less redness, paler lips, dry skin, grey hair
     double age = 0.0;
     unsigned seed = 1;
+    /// A name of hair_style_names(): locks over the scalp; "shaven" has none
+    std::string hair_style = "shaven";
+    std::string hairline_form = "even";  ///< a name of hairline_form_names()
+    double grey_hair = 0.0;              ///< 0..1, share of white hairs beyond what comes with age
 };
 
 /// A muscle below the skin: a closed surface.

@@ -93,6 +93,13 @@ void visit_fields(AppearanceDescription& appearance, Visit visit) {
     visit("beard_length_mm", appearance.beard_length_mm, Range{0, 15});
     visit("age", appearance.age, Range{0, 1});
     visit("seed", appearance.seed);
+    static const std::vector<std::string_view> kHairStyles{
+        "shaven", "crop", "short_parted", "curly_short", "afro", "bob", "long_tied", "bald_fringe"};
+    static const std::vector<std::string_view> kHairlines{"even", "round", "widows_peak",
+                                                          "m",    "high",  "receding"};
+    visit("hair_style", appearance.hair_style, kHairStyles);
+    visit("hairline_form", appearance.hairline_form, kHairlines);
+    visit("grey_hair", appearance.grey_hair, Range{0, 1});
 }
 
 struct FieldReader {

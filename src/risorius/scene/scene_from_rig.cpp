@@ -187,7 +187,10 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
                         .beard_length_mm = rig.appearance.beard_length_mm,
                         .beard = rig.appearance.beard,
                         .age = rig.appearance.age,
-                        .seed = static_cast<unsigned>(rig.appearance.seed)};
+                        .seed = static_cast<unsigned>(rig.appearance.seed),
+                        .hair_style = rig.appearance.hair_style,
+                        .hairline_form = rig.appearance.hairline_form,
+                        .grey_hair = rig.appearance.grey_hair};
     return scene;
 }
 

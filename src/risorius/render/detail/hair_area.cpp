@@ -36,7 +36,7 @@ HairArea::HairArea(const Scene& scene) {
     }
     centre_ = paint_centre(scene, low, high);
     plan_ = plan_skin(scene, centre_);
-    scalp_ = std::max(scene.appearance.scalp_hair, scene.appearance.hair_length_mm) > 0 &&
+    scalp_ = std::max(scalp_paint(scene.appearance), scene.appearance.hair_length_mm) > 0 &&
              plan_.hairline[0] < 1;
 }
 
@@ -51,6 +51,7 @@ std::optional<Part> HairArea::at(const Vec3& rest) const {
     }
     if (!scalp_ || plan_.ears[0].contains(rest) || plan_.ears[1].contains(rest))
         return std::nullopt;
+    if (rest.y() + SkinPlan::kRingSlope * rest.z() > plan_.ring_m) return std::nullopt;
     const Vec2 place = paint_place(rest, centre_);
     if ((place - Vec2(0.5, 0.5)).norm() < hairline_radius(plan_, place)) return std::nullopt;
     return Part::kHair;

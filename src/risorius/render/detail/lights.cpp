@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "risorius/render/detail/lock_layer.h"
+
 namespace risorius::render {
 namespace {
 
@@ -117,7 +119,8 @@ FrameUniforms Lights::uniforms(const MouthGap& gap) const {
     return frame;
 }
 
-void Lights::draw_shadow(SceneBuffers& buffers, const Eigen::Matrix4f* clip_from_world) const {
+void Lights::draw_shadow(SceneBuffers& buffers, const Eigen::Matrix4f* clip_from_world,
+                         const LockLayer* locks) const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     glViewport(0, 0, shadow_side_, shadow_side_);
     glEnable(GL_DEPTH_TEST);
@@ -126,10 +129,14 @@ void Lights::draw_shadow(SceneBuffers& buffers, const Eigen::Matrix4f* clip_from
     glClear(GL_DEPTH_BUFFER_BIT);
     program_.use();
     glUniformMatrix4fv(clip_location_, 1, GL_FALSE, clip_from_world_.data());
-    // The skin casts all visible shadows: on itself, on the eyes and on the teeth.
+    // The skin casts all visible shadows but those of hair: on itself, on the eyes and on the teeth.
     if (shadow_) {
         buffers.choose_casters(clip_from_world_, clip_from_world);
         for (const Batch& batch : buffers.batches()) buffers.draw(batch, Purpose::kShadow);
+        if (locks) {
+            locks->draw_casters();
+            buffers.bind();
+        }
     }
     glDisable(GL_POLYGON_OFFSET_FILL);
     glActiveTexture(GL_TEXTURE0 + kShadowUnit);

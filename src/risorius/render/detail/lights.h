@@ -28,6 +28,8 @@ LightPlan plan_light(const LightOptions& options, double camera_azimuth_rad);
 /// Returns the factor per channel that gives a white card at the face the value 1, times 2^exposure_ev.
 Vec3 exposure_for(const LightPlan& plan, double exposure_ev);
 
+class LockLayer;
+
 class Lights {
   public:
     /// `height_px`: height of the picture. Small pictures and drafts get a shadow map with half as many texels per side.
@@ -43,8 +45,10 @@ class Lights {
     FrameUniforms uniforms(const MouthGap& gap) const;
 
     /// Draws the shadow map of the bound scene and binds the textures that the shaders read for light. If `clip_from_world` is
-    /// not null, only triangles whose shadows can be visible in that clip space are drawn.
-    void draw_shadow(SceneBuffers& buffers, const Eigen::Matrix4f* clip_from_world) const;
+    /// not null, only triangles whose shadows can be visible in that clip space are drawn. `locks`: hair that throws shadow, or
+    /// null.
+    void draw_shadow(SceneBuffers& buffers, const Eigen::Matrix4f* clip_from_world,
+                     const LockLayer* locks) const;
 
   private:
     FrameUniforms frame_{};

@@ -58,10 +58,21 @@ void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
     }
 }
 
+/// Whether a place of the map lies on the bald crown, for a head of 0.105 m radius.
+bool on_bald_crown(const SkinPlan& plan, const Vec2& place, const Vec3& centre) {
+    if (plan.ring_m > 100) return false;
+    constexpr double kRadius_m = 0.105;
+    const Vec2 off = place - Vec2(0.5, 0.5);
+    const double z = 1 - 8 * off.squaredNorm(), scale = 4 / std::sqrt(2 / std::max(1 + z, 1e-6));
+    const Vec3 at = centre + kRadius_m * Vec3(scale * off.x(), scale * off.y(), z);
+    return at.y() + SkinPlan::kRingSlope * at.z() > plan.ring_m;
+}
+
 /// Cropped hair beyond the hairline, combed away from the whorl at the crown.
 void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const EarMask& ears,
            RandomSequence& random, StrokePad& pad) {
-    if (scene.appearance.scalp_hair <= 0 || plan.hairline[0] > 1) return;
+    const double scalp_hair = scalp_paint(scene.appearance);
+    if (scalp_hair <= 0 || plan.hairline[0] > 1) return;
     // Roots follow the low-discrepancy sequence of the plastic number (Roberts 2018); plain random points leave bald spots and
     // clusters.
     constexpr int kHairs = 170000;
@@ -81,6 +92,7 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
         const double inside = (radius - hairline_radius(plan, root)) / 0.034;
         const double thick = std::clamp(inside + 0.22, 0.0, 1.0);
         if (keep > thick * thick * (3 - 2 * thick)) continue;
+        if (on_bald_crown(plan, root, centre)) continue;
         Vec2 away = root - whorl;
         const double distance = away.norm();
         away = distance > 1e-4 ? Vec2(away / distance) : Vec2(0, 1);
@@ -91,7 +103,7 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
         if (ears.at(root) || ears.at(root + kMapPerMetre * length * direction)) continue;
         pad.add(root, root + kMapPerMetre * length * direction, kMapPerMetre * 0.00014,
                 hair * (0.65 + 0.6 * shade),
-                std::min(1.0, 1.3 * scene.appearance.scalp_hair) * (0.45 + 0.45 * length_draw) *
+                std::min(1.0, 1.3 * scalp_hair) * (0.45 + 0.45 * length_draw) *
                     std::clamp(0.35 + inside, 0.0, 1.0));
     }
 }

@@ -35,6 +35,7 @@ class SceneBuffers {
 
     /// These functions select triangles for the current positions. They are those of the same name in triangle_choice.h.
     void choose(const Eigen::Matrix4f& clip_from_world, bool whole);
+    void hide(const std::vector<std::uint8_t>& vertices) { choice_.hide(vertices); }
     void choose_casters(const Eigen::Matrix4f& light_from_world,
                         const Eigen::Matrix4f* clip_from_world);
     void leave_out_unseen(SkinLayer& skin, PictureCells& cells,

@@ -36,6 +36,7 @@ in vec4 zone_sum;
 out vec4 colour;
 uniform vec3 skin_tone, lip_tone, hair_tone;   // linear
 uniform float scalp_hair, seed, age, beard;
+uniform float ring;             // the crown is bald above it, m
 uniform vec4 beard_place[16];   // m, 1 / (2 spread^2)
 uniform int beard_places;
 uniform int lip_points;
@@ -89,6 +90,7 @@ void main() {
     vec2 from_middle = place - 0.5;
     float r = length(from_middle);
     float hair = smoothstep(-0.010, 0.042, r - hair_start(from_middle) + 0.016 * (noise(p * 0.30 + 3.0) - 0.5) + 0.008 * (noise(p * 0.9 + 33.0) - 0.5));
+    hair *= 1.0 - smoothstep(-0.008, 0.006, rest.y + 0.20 * rest.z - ring + 0.010 * (noise(p * 0.5 + 21.0) - 0.5));
     for (int i = 0; i < 2; ++i) {
         if (any(lessThan(rest, ear_low[i].xyz)) || any(greaterThan(rest, ear_high[i].xyz))) continue;
         vec3 from_top = ear_high[i].xyz - rest;
@@ -99,6 +101,7 @@ void main() {
     vec3 under_hair = mix(albedo, hair_tone, 0.88) * vec3(0.88, 0.90, 0.93);
     albedo = mix(albedo, under_hair, hair * scalp_hair);
     float matte = smoothstep(-0.045, 0.010, r - hair_start(from_middle));
+    if (ring < 100.0) matte = hair;
     oil *= 1.0 - (0.55 * matte + 0.43 * hair) * min(1.0, 1.7 * scalp_hair);
 
     // Hair that is cut at the skin still darkens it.

@@ -199,6 +199,7 @@ std::string skin_with(const SkinRelief& relief, const std::string& told) {
 
 }  // namespace
 
+std::string told_chunk(bool layer) { return layer ? turns_chunk() + kAway : kCovered; }
 std::string skin_shader(const SkinRelief& relief) {
     return lighting_chunk() + kOpaque + skin_with(relief, kCovered);
 }
@@ -207,7 +208,7 @@ std::string skin_layer_shader(const SkinRelief& relief) {
 }
 std::string draft_skin_shader(bool layer) {
     return frame_chunk() + lights_chunk() + "in vec3 position;\n" +
-           (layer ? turns_chunk() + kAway : kCovered) + kDraft;
+           told_chunk(layer) + kDraft;
 }
 std::string veil_shader(const SkinRelief& relief) {
     return lighting_chunk() + "const float kVeil = " + std::to_string(kSkinOverMuscles) + ";\n" +

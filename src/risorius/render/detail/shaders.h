@@ -40,7 +40,8 @@ enum TextureUnit {
     kSkinLayerUnit = 7,
     kOwnColourUnit = 8,
     kOwnPlaceUnit = 9,
-    kHairLengthUnit = 10
+    kHairLengthUnit = 10,
+    kStrandUnit = 11
 };
 enum VertexAttribute {
     kPosition = 0,
@@ -97,6 +98,8 @@ std::string eye_texture_shader();
 std::string teeth_texture_shader();
 std::string mucosa_texture_shader(bool tongue);
 std::string lash_shader();
+std::string lock_vertex_shader();
+std::string lock_shader(bool layer);  ///< `layer`: to be stored and looked up as skin is
 std::string strand_vertex_shader();
 std::string strand_shader();
 std::string shell_vertex_shader();
@@ -108,6 +111,8 @@ std::string tear_shader();
 std::string object_vertex_shader();  ///< for ObjectView, which has its own lights
 std::string object_shader();
 
+/// Defines told(), the alpha of skin and locks in a picture, or in a layer; to be put after frame_chunk() and "in vec3 position;"
+std::string told_chunk(bool layer);
 /// Defines kTurnsPerMetre: how often the distance in a skin layer wraps around
 std::string turns_chunk();
 std::string frame_chunk();     ///< version and frame block

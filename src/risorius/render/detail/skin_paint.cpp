@@ -24,7 +24,8 @@ void set_plan(const GlProgram& program, const SkinPlan& plan, const Appearance& 
     colour("skin_tone", appearance.skin_tone);
     colour("lip_tone", appearance.lip_tone);
     colour("hair_tone", hair_tone_at(appearance));
-    glUniform1f(program.location("scalp_hair"), static_cast<float>(appearance.scalp_hair));
+    glUniform1f(program.location("scalp_hair"), static_cast<float>(scalp_paint(appearance)));
+    glUniform1f(program.location("ring"), static_cast<float>(plan.ring_m));
     glUniform1f(program.location("seed"), static_cast<float>(appearance.seed % 1000));
 
     std::vector<float> place, log_tint, oil;

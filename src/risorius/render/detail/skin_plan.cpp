@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "risorius/render/detail/lock_style.h"
 #include "risorius/render/detail/skin_paint.h"
 
 namespace risorius::render {
@@ -149,10 +150,13 @@ void plan_hairline(const Marks& marks, const Vec3& centre, const Appearance& app
         knots.push_back({std::atan2(d.x(), d.y()), d.norm()});
     };
     // Higher on the forehead is also farther back; the map only knows the direction from the middle of the head.
-    const Vec3 higher = 1e-3 * appearance.hairline_mm * Vec3(0, 0.75, -0.65),
-               bay = higher + 1e-3 * appearance.temples_mm * Vec3(0, 0.7, -0.7),
-               side_bay = 0.4 * higher + 1e-3 * appearance.temples_mm * Vec3(0, 0.3, -0.6);
-    const Vec3 crown = front[0] + higher, &temple_l = front[1], &temple_r = front[2];
+    const HairlineForm& form = hairline_form(appearance.hairline_form);
+    const double temples_mm = appearance.temples_mm + form.temples_mm;
+    const Vec3 up(0, 0.75, -0.65), higher = 1e-3 * (appearance.hairline_mm + form.higher_mm) * up,
+                                   bay = higher + 1e-3 * temples_mm * Vec3(0, 0.7, -0.7) +
+                                         1e-3 * form.bay_mm * up,
+                                   side_bay = 0.4 * higher + 1e-3 * temples_mm * Vec3(0, 0.3, -0.6);
+    const Vec3 crown = front[0] + higher + 1e-3 * form.middle_mm * up, &temple_l = front[1], &temple_r = front[2];
     for (const int side : {0, 1}) {
         const double s = side == 0 ? 1 : -1;
         const Vec3& temple = side == 0 ? temple_l : temple_r;
@@ -227,6 +231,12 @@ Vec3 hair_tone_at(const Appearance& appearance) {
     return appearance.hair_tone + 0.85 * grey * (Vec3(0.60, 0.555, 0.50) - appearance.hair_tone);
 }
 
+double scalp_paint(const Appearance& appearance) {
+    constexpr double kBetweenLocks = 0.85;
+    return lock_style(appearance.hair_style) ? std::max(appearance.scalp_hair, kBetweenLocks)
+                                             : appearance.scalp_hair;
+}
+
 double hairline_radius(const SkinPlan& plan, const Vec2& place) {
     const Vec2 d = place - Vec2(0.5, 0.5);
     const double turn = std::atan2(d.x(), d.y()) / (2 * std::numbers::pi);
@@ -257,6 +267,12 @@ SkinPlan plan_skin(const Scene& scene, const Vec3& paint_centre) {
         }
         const std::vector<Vec3> brow = marks.all({"bm" + s, "bc" + s, "bp" + s, "bl" + s});
         if (!brow.empty()) plan.brows[side] = smooth_curve(brow, 12);
+    }
+    const LockStyle* style = lock_style(scene.appearance.hair_style);
+    if (style && style->ring) {
+        constexpr double kAboveEars_m = 0.020;
+        const double ears_m = plan.ears[0].known ? plan.ears[0].high.y() : paint_centre.y() + 0.03;
+        plan.ring_m = std::max(ears_m, paint_centre.y() + 0.02) + kAboveEars_m;
     }
     return plan;
 }

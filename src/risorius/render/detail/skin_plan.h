@@ -38,6 +38,9 @@ struct SkinPlan {
     /// Radius on the paint map (0..0.5) beyond which hair grows, at equal steps of the angle from straight up towards the left;
     /// above 1: no hair.
     std::array<double, kHairlineSteps> hairline;
+    /// The crown is bald where y + kRingSlope z is above this, rest, m
+    double ring_m = 1e3;
+    static constexpr double kRingSlope = 0.20;
     std::vector<SkinZone> beard;  ///< soft spots (centre and spread) with a beard
     std::array<EarRegion, 2> ears;
     std::array<std::vector<Vec3>, 2> brows;  ///< centre lines from medial to lateral, rest, m
@@ -50,6 +53,9 @@ double beard_density(const SkinPlan& plan, const Vec3& rest);
 
 /// Tone of the hair at the age of the appearance: grey from middle age on.
 Vec3 hair_tone_at(const Appearance& appearance);
+
+/// How dark the scalp is painted, 0..1. Between locks it is as dark as their roots.
+double scalp_paint(const Appearance& appearance);
 
 /// Returns the radius on the map at which hair starts, in the direction of `place`, a position on the map.
 double hairline_radius(const SkinPlan& plan, const Vec2& place);

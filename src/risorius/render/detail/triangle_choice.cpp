@@ -76,6 +76,9 @@ void TriangleChoice::choose(const Eigen::Matrix4f& clip_from_world, bool whole) 
             const unsigned* face = corners.data() + k;
             // The texture coordinates of a textured batch are looked up by triangle number, so its triangles are all kept.
             if (batch.texture < 0 && !is_seen(face, batch.cull_back)) continue;
+            if (!whole && !hidden_.empty() && hidden_[face[0]] && hidden_[face[1]] &&
+                hidden_[face[2]])
+                continue;
             const bool wrinkled =
                 apart && (wrinkled_[face[0]] || wrinkled_[face[1]] || wrinkled_[face[2]]);
             std::vector<unsigned>& to = wrinkled ? wrinkled_choice_ : choice_;

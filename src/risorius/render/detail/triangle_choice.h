@@ -24,6 +24,9 @@ class TriangleChoice {
                    const std::vector<std::uint8_t>& wrinkled)
         : triangles_(triangles), positions_(positions), wrinkled_(wrinkled) {}
 
+    /// Leaves out the triangles all of whose vertices are marked, unless simplified triangles are not wanted. One mark per vertex
+    /// of the scene, or none.
+    void hide(const std::vector<std::uint8_t>& vertices) { hidden_ = vertices; }
     /// Call when positions have changed.
     void moved() { looked_from_.reset(); }
     /// Selects the triangles to draw next, for the current positions: those inside the clip space, and only those that face the
@@ -76,6 +79,7 @@ class TriangleChoice {
     /// Four numbers per vertex in the clip space of looked_from_: x / w, y / w, z / w, and w
     std::vector<float> clip_places_;
     std::vector<float> lit_places_, farthest_lit_;
+    std::vector<std::uint8_t> hidden_;
 };
 
 }  // namespace risorius::render

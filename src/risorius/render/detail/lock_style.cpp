@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/render/detail/lock_style.h"
+
+#include <algorithm>
+
+#include "risorius/core/known_names.h"
+#include "risorius/render/hair_styles.h"
+
+namespace risorius::render {
+namespace {
+
+// Own starting values, set by eye.
+constexpr LockStyle kStyles[] = {
+    {.name = "shaven"},
+    {.name = "crop",
+     .locks = 620,
+     .segments = 2,
+     .across = 2,
+     .top_mm = 15,
+     .side_mm = 7,
+     .back_mm = 8,
+     .flow = HairFlow::kWhorl,
+     .lift = 0.35,
+     .width_mm = 4.5,
+     .cap_mm = 2.5,
+     .layers_mm = 1.5,
+     .loft_mm = 2,
+     .lit_cap = 0.85},
+    {.name = "short_parted",
+     .locks = 300,
+     .segments = 6,
+     .top_mm = 80,
+     .side_mm = 24,
+     .back_mm = 24,
+     .flow = HairFlow::kParting,
+     .lift = 0.4,
+     .fall = 0.4,
+     .width_mm = 11,
+     .cap_mm = 7,
+     .layers_mm = 4,
+     .loft_mm = 2,
+     .curl_mm = 1.2,
+     .pitch_mm = 45,
+     .parting_mm = 32,
+     .lit_cap = 0.55},
+    {.name = "curly_short",
+     .locks = 430,
+     .segments = 6,
+     .across = 2,
+     .top_mm = 30,
+     .side_mm = 22,
+     .back_mm = 20,
+     .flow = HairFlow::kRadial,
+     .lift = 0.3,
+     .width_mm = 7,
+     .cap_mm = 9,
+     .layers_mm = 8,
+     .loft_mm = 7,
+     .tip = 0.5,
+     .curl_mm = 4.5,
+     .pitch_mm = 20,
+     .lit_cap = 0.5},
+    {.name = "afro",
+     .locks = 560,
+     .segments = 5,
+     .across = 2,
+     .top_mm = 20,
+     .side_mm = 20,
+     .back_mm = 18,
+     .flow = HairFlow::kRadial,
+     .lift = 0.25,
+     .width_mm = 6,
+     .cap_mm = 26,
+     .layers_mm = 5,
+     .loft_mm = 4,
+     .tip = 0.6,
+     .curl_mm = 4,
+     .pitch_mm = 15,
+     .lit_cap = 0.6,
+     .over_ears = false},
+    {.name = "bob",
+     .locks = 230,
+     .segments = 10,
+     .top_mm = 280,
+     .side_mm = 230,
+     .back_mm = 230,
+     .flow = HairFlow::kParting,
+     .lift = 0.15,
+     .fall = 0.5,
+     .width_mm = 18,
+     .cap_mm = 8,
+     .layers_mm = 4,
+     .loft_mm = 1,
+     .tip = 0.3,
+     .curl_mm = 1.5,
+     .pitch_mm = 90,
+     .parting_mm = 12,
+     .lit_cap = 0.55,
+     .over_ears = true,
+     .hangs = true},
+    {.name = "long_tied",
+     .locks = 190,
+     .segments = 9,
+     .across = 2,
+     .top_mm = 260,
+     .side_mm = 200,
+     .back_mm = 150,
+     .flow = HairFlow::kKnot,
+     .lift = 0,
+     .width_mm = 13,
+     .cap_mm = 2.5,
+     .layers_mm = 1.5,
+     .loft_mm = 0.5,
+     .lit_cap = 0.75,
+     .tail = true},
+    {.name = "bald_fringe",
+     .locks = 700,
+     .segments = 3,
+     .across = 2,
+     .top_mm = 20,
+     .side_mm = 18,
+     .back_mm = 20,
+     .flow = HairFlow::kDown,
+     .lift = 0.2,
+     .fall = 0.5,
+     .width_mm = 5,
+     .cap_mm = 1.5,
+     .layers_mm = 3,
+     .loft_mm = 2,
+     .lit_cap = 0.5,
+     .ring = true},
+};
+
+constexpr HairlineForm kForms[] = {
+    {"even"},
+    {.name = "round", .middle_mm = 3, .bay_mm = -9},
+    {.name = "widows_peak", .middle_mm = -9, .bay_mm = 3},
+    {.name = "m", .middle_mm = -2, .bay_mm = 10, .temples_mm = 10},
+    {.name = "high", .higher_mm = 12},
+    {.name = "receding", .higher_mm = 22, .bay_mm = 4, .temples_mm = 22},
+};
+
+template <typename Table>
+std::vector<std::string> names_of(const Table& table) {
+    std::vector<std::string> names;
+    for (const auto& row : table) names.emplace_back(row.name);
+    return names;
+}
+
+}  // namespace
+
+const std::vector<std::string>& hair_style_names() {
+    static const std::vector<std::string> names = names_of(kStyles);
+    return names;
+}
+
+const std::vector<std::string>& hairline_form_names() {
+    static const std::vector<std::string> names = names_of(kForms);
+    return names;
+}
+
+const LockStyle* lock_style(const std::string& name) {
+    const std::size_t at = index_of_name("hair_style", name, hair_style_names());
+    return at == 0 ? nullptr : &kStyles[at];
+}
+
+const HairlineForm& hairline_form(const std::string& name) {
+    return kForms[index_of_name("hairline_form", name, hairline_form_names())];
+}
+
+}  // namespace risorius::render

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/render/detail/locks.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "risorius/render/detail/lock_guides.h"
+
+namespace risorius::render {
+namespace {
+
+// Size of the texture of strands on a head
+constexpr double kStrandsAcross_m = 0.050, kStrandsAlong_m = 0.140;
+/// Height of the middle of a lock over its sides, and lean of the normal at them, ratios to half its width
+constexpr double kRoof = 0.35, kRound = 0.75;
+
+double soft_step(double from, double to, double x) {
+    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+}
+
+/// Half the width of a lock, as a share, from the root (0) to the tip (1).
+double taper(double s, bool edge, double tip) {
+    const double root = edge ? 0.12 : 0.25;
+    return (root + (1 - root) * soft_step(0, 0.22, s)) * (1 - (1 - tip) * soft_step(0.5, 1.0, s));
+}
+
+/// What differs from lock to lock, each 0..1.
+struct LockChance {
+    double tone, along, across;
+};
+
+void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
+              const LockChance& chance, Hair& hair) {
+    const std::size_t rows = guide.points.size(), columns = static_cast<std::size_t>(style.across);
+    HairPiece piece{hair.triangles.size(), 0, hair.vertices.size(), columns * rows, columns,
+                    !guide.hangs};
+    const double half = 0.5e-3 * style.width_mm * guide.width * (0.75 + 0.5 * chance.tone);
+    double along_m = kStrandsAlong_m * chance.along;
+    hair.roots.push_back(guide.root);
+    for (std::size_t i = 0; i < rows; ++i) {
+        const double s = static_cast<double>(i) / static_cast<double>(rows - 1);
+        const Vec3 along =
+            (guide.points[std::min(i + 1, rows - 1)] - guide.points[i > 0 ? i - 1 : 0])
+                .normalized();
+        const Vec3 side = along.cross(guide.out[i]).normalized(), out = side.cross(along);
+        if (i > 0) along_m += (guide.points[i] - guide.points[i - 1]).norm();
+        const double width = half * taper(s, guide.edge, style.tip);
+        // Deep between the roots it is dark.
+        const double root_lit = guide.edge ? 0.85 : 0.68;
+        const double lit =
+            (root_lit + (1 - root_lit) * soft_step(0, 0.4, s)) * (0.60 + 0.40 * guide.layer);
+        for (std::size_t column = 0; column < columns; ++column) {
+            const double at = 2.0 * static_cast<double>(column) / static_cast<double>(columns - 1) - 1;
+            HairVertex v;
+            v.root = hair.roots.size() - 1;
+            v.offset = guide.points[i] + at * width * side +
+                       kRoof * width * (1 - std::abs(at)) * out - root;
+            v.along = along;
+            v.out = (out + kRound * at * side).normalized();
+            v.strand = {chance.across + at * width / kStrandsAcross_m, along_m / kStrandsAlong_m};
+            v.lit = lit;
+            v.tone = (0.85 + 0.30 * chance.tone) * (0.85 + 0.25 * s);
+            v.grey = guide.grey;
+            hair.vertices.push_back(v);
+        }
+    }
+    const auto first = static_cast<unsigned>(piece.first_vertex),
+               row = static_cast<unsigned>(columns);
+    for (unsigned i = 0; i + 1 < rows; ++i)
+        for (unsigned k = 0; k + 1 < row; ++k) {
+            const unsigned a = first + row * i + k, b = a + 1, c = a + row, d = c + 1;
+            hair.triangles.insert(hair.triangles.end(), {a, b, d, a, d, c});
+        }
+    piece.indices = hair.triangles.size() - piece.first_index;
+    hair.pieces.push_back(piece);
+}
+
+/// Rows of the cap from the whorl outwards, columns around it.
+constexpr int kCapRows = 14, kCapColumns = 72;
+
+/// Marks the skin inside the border of the cap, which reaches so far from the whorl in each column, rad.
+void cover_skin(const LockGround& ground, const Scene& scene, const Vec3& ahead, const Vec3& right,
+                const std::vector<double>& reach, Hair& hair) {
+    constexpr double kInside = 0.06, kDeep_m = 0.004;
+    hair.covered.assign(static_cast<std::size_t>(scene.rest.rows()), 0);
+    for (const Surface& surface : scene.surfaces) {
+        if (surface.material != Material::kSkin) continue;
+        for (Eigen::Index i = 0; i < surface.triangles.size(); ++i) {
+            const int v = surface.triangles.data()[i];
+            const Vec3 from = scene.rest.row(v).transpose() - ground.head().centre(),
+                       d = from.normalized();
+            if (from.norm() < ground.head().radius_m(d, false) - kDeep_m) continue;
+            const double turn = std::atan2(d.dot(right), d.dot(ahead)) / (2 * std::numbers::pi);
+            const auto column =
+                static_cast<std::size_t>((turn - std::floor(turn)) * kCapColumns) % kCapColumns;
+            const double angle = std::acos(std::clamp(d.dot(ground.whorl()), -1.0, 1.0));
+            if (angle < std::min(reach[column], reach[column + 1]) - kInside)
+                hair.covered[static_cast<std::size_t>(v)] = 1;
+        }
+    }
+}
+
+void add_cap(const LockGround& ground, const LockStyle& style, const Scene& scene, Hair& hair) {
+    if (style.ring) return;
+    constexpr double kInside_m = 0.004, kTurn = 0.012;
+    const Vec3 pole = ground.whorl(), centre = ground.head().centre(),
+               right = pole.cross(Vec3::UnitZ()).normalized(), ahead = right.cross(pole);
+    if (!ground.grows(pole, kInside_m)) return;
+    HairPiece piece{hair.triangles.size(), 0, hair.vertices.size(), 0, 0, false};
+    std::vector<double> reaches;
+    for (int column = 0; column <= kCapColumns; ++column) {
+        const double turn = 2 * std::numbers::pi * column / kCapColumns;
+        const Vec3 aside = std::cos(turn) * ahead + std::sin(turn) * right;
+        double reach = 0;
+        const auto towards = [&](double angle) { return Vec3(std::cos(angle) * pole + std::sin(angle) * aside); };
+        while (reach < 2.6 && ground.grows(towards(reach + kTurn), kInside_m)) reach += kTurn;
+        reaches.push_back(reach);
+        for (int row = 0; row <= kCapRows; ++row) {
+            const double angle = reach * row / kCapRows;
+            const Vec3 d = towards(angle);
+            const auto place = ground.head().skin_at(d);
+            HairVertex v;
+            v.root = hair.roots.size();
+            hair.roots.push_back(*place);
+            const double edge = soft_step(1.0, 0.8, static_cast<double>(row) / kCapRows);
+            const Vec3 at = centre + (ground.head().radius_m(d, false) + 0.0004 + ground.cap_m(d) * (0.3 + 0.7 * edge)) * d;
+            v.offset = at - place->on(scene.rest);
+            v.along = ground.flow(at);
+            v.out = d;
+            v.strand = style.flow == HairFlow::kParting
+                           ? Vec2(at.z() / kStrandsAcross_m, std::abs(at.x() - ground.parting_m()) / kStrandsAlong_m)
+                           : Vec2(4.0 * column / kCapColumns * 2, 0.1 * angle / kStrandsAlong_m);
+            v.lit = style.lit_cap;
+            hair.vertices.push_back(v);
+        }
+    }
+    const auto first = static_cast<unsigned>(piece.first_vertex);
+    constexpr unsigned kRow = kCapRows + 1;
+    for (unsigned column = 0; column < kCapColumns; ++column)
+        for (unsigned row = 0; row < kCapRows; ++row) {
+            const unsigned a = first + column * kRow + row, b = a + 1, c = a + kRow, d = c + 1;
+            hair.triangles.insert(hair.triangles.end(), {a, b, d});
+            if (row > 0) hair.triangles.insert(hair.triangles.end(), {a, d, c});
+        }
+    piece.indices = hair.triangles.size() - piece.first_index;
+    piece.vertices = hair.vertices.size() - piece.first_vertex;
+    hair.casters.insert(hair.casters.end(), hair.triangles.begin() + static_cast<std::ptrdiff_t>(piece.first_index), hair.triangles.end());
+    hair.pieces.push_back(piece);
+    cover_skin(ground, scene, ahead, right, reaches, hair);
+}
+
+/// Every third lock, with every other row of it.
+void add_casters(Hair& hair) {
+    for (std::size_t p = 0; p < hair.pieces.size(); p += 3) {
+        const HairPiece& piece = hair.pieces[p];
+        const auto first = static_cast<unsigned>(piece.first_vertex),
+                   columns = static_cast<unsigned>(piece.columns),
+                   rows = static_cast<unsigned>(piece.vertices) / columns;
+        const unsigned step = rows > 4 ? 2 : 1;
+        for (unsigned row = 0; row + step < rows; row += step) {
+            const unsigned a = first + columns * row, b = a + columns - 1, c = a + step * columns,
+                           d = c + columns - 1;
+            hair.casters.insert(hair.casters.end(), {a, b, d, a, d, c});
+        }
+    }
+}
+
+}  // namespace
+
+Hair plan_hair(const Scene& scene, const SkinPlan& plan, const Vec3& paint_centre) {
+    Hair hair;
+    const LockStyle* style = lock_style(scene.appearance.hair_style);
+    if (!style || has_own_skin(scene) || plan.hairline[0] > 1) return hair;
+    const LockGround ground(scene, plan, paint_centre, *style);
+    RandomSequence random(scene.appearance.seed * 40503U + 11U);
+    // The outermost locks come first: what they hide is then not shaded.
+    std::vector<LockGuide> guides = ground.guides(scene.appearance.seed);
+    std::stable_sort(guides.begin(), guides.end(), [](const LockGuide& a, const LockGuide& b) {
+        return a.layer > b.layer;
+    });
+    for (const LockGuide& guide : guides) {
+        const LockChance chance{random.next(), random.next(), random.next()};
+        add_lock(guide, *style, guide.root.on(scene.rest), chance, hair);
+    }
+    add_casters(hair);
+    add_cap(ground, *style, scene, hair);
+    return hair;
+}
+
+PosedHair pose_hair(const Hair& hair, const Points& rest, const Points& positions) {
+    // The turn of the head that fits the roots best (Kabsch 1976)
+    PosedHair posed;
+    constexpr std::size_t kPlaces = 40;
+    const std::size_t step = std::max<std::size_t>(hair.roots.size() / kPlaces, 1);
+    Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+    double count = 0;
+    for (std::size_t i = 0; i < hair.roots.size(); i += step, ++count) {
+        from += hair.roots[i].on(rest);
+        to += hair.roots[i].on(positions);
+    }
+    Mat3 sum = Mat3::Zero();
+    for (std::size_t i = 0; i < hair.roots.size(); i += step)
+        sum += (hair.roots[i].on(positions) - to / count) *
+               (hair.roots[i].on(rest) - from / count).transpose();
+    const Eigen::JacobiSVD<Mat3> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Mat3 flip = Mat3::Identity();
+    flip(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+    posed.turned = svd.matrixU() * flip * svd.matrixV().transpose();
+    std::vector<Vec3> roots;
+    roots.reserve(hair.roots.size());
+    for (const SkinPlace& root : hair.roots) roots.push_back(root.on(positions));
+    posed.positions.resize(static_cast<Eigen::Index>(hair.vertices.size()), 3);
+    for (std::size_t i = 0; i < hair.vertices.size(); ++i)
+        posed.positions.row(static_cast<Eigen::Index>(i)) =
+            (roots[hair.vertices[i].root] + posed.turned * hair.vertices[i].offset).transpose();
+    return posed;
+}
+
+}  // namespace risorius::render

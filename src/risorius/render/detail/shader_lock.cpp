@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// GLSL of locks of hair: light from all around, and two highlights across the hairs.
+#include "risorius/render/detail/shaders.h"
+
+namespace risorius::render {
+namespace {
+
+// Kajiya and Kay 1989; the two highlights, one white and one of the hair's tone, as Scheuermann 2004, Practical Real-Time Hair
+// Rendering and Shading. Everything but the strands is computed per vertex of a lock.
+constexpr const char* kLockVertex = R"(
+layout(location = 0) in vec3 in_position;
+layout(location = 1) in vec3 in_along;
+layout(location = 2) in vec3 in_out;
+layout(location = 3) in vec2 in_strand;
+layout(location = 4) in vec3 in_light;     // share of the light, factor of the tone, added share of white hairs
+layout(binding = 0) uniform sampler2DShadow shadow_map;
+uniform vec3 hair_tone;                    // linear
+uniform vec3 white_tone;
+out vec3 dark;       // what hairs of the tone, and white ones, send to the camera
+out vec3 white;
+out vec3 shine;
+out vec2 strand;
+out float grey;
+out vec3 position;
+
+float highlight(vec3 t, vec3 h, float power) {
+    float th = dot(t, h);
+    return pow(max(1.0 - th * th, 0.0), 0.5 * power);
+}
+
+void main() {
+    vec3 v = normalize(camera.xyz - in_position), k = key_direction.xyz, n = in_out;
+    vec3 t = normalize(in_along);
+    // Own shadow, from what lies four millimetres nearer to the lamp
+    vec3 c = (shadow_from_world * vec4(in_position + 0.004 * k + 0.002 * n, 1.0)).xyz;
+    float s = textureLod(shadow_map, c, 0.0);
+    float nk = dot(n, k), tk = dot(t, k);
+    float form = smoothstep(-0.35, 0.75, nk);
+    float around = sqrt(max(1.0 - tk * tk, 0.0)) * form;
+    vec3 rim = rim_card.rgb * smoothstep(-0.1, 0.7, dot(n, rim_direction.xyz));
+    vec3 even = 0.6 * fill_card.rgb * clamp(0.5 + 0.5 * dot(n, fill_direction.xyz), 0.0, 1.0) + ambient(n);
+    vec3 light = in_light.x * (key_card.rgb * (s * around) + even + 0.5 * rim);
+    vec3 h = normalize(v + k), back = normalize(v + rim_direction.xyz);
+    vec3 first = normalize(t - 0.10 * n), second = normalize(t + 0.12 * n);
+    float lamp = s * form * in_light.x;
+    vec3 tone = hair_tone * in_light.y;
+    dark = tone * light;
+    white = white_tone * light;
+    vec3 gloss = key_card.rgb * (lamp * highlight(second, h, 18.0)) + 0.35 * rim * highlight(t, back, 18.0);
+    shine = gloss * (0.75 * tone + 0.012) + key_card.rgb * (0.045 * lamp * highlight(first, h, 60.0)) + 0.009 * light;
+    grey = in_light.z;
+    position = in_position;
+    strand = in_strand;
+    gl_Position = clip_from_world * vec4(in_position, 1.0);
+}
+)";
+
+constexpr const char* kLockFragment = R"(
+in vec3 dark;
+in vec3 white;
+in vec3 shine;
+in vec2 strand;
+in float grey;
+out vec4 colour;
+layout(binding = 11) uniform sampler2D strand_map;
+uniform bool has_white;
+void main() {
+    vec2 hairs = texture(strand_map, strand).rg;
+    float bright = hairs.r + hairs.r * hairs.r;      // gaps between strands are dark
+    vec3 own = has_white ? mix(dark, white, min(hairs.g * (1.0 + grey), 1.0)) : dark;
+    colour = vec4(shown(own * (0.25 + 1.1 * bright) + shine * bright), told());
+}
+)";
+
+}  // namespace
+
+std::string lock_vertex_shader() { return frame_chunk() + lights_chunk() + kLockVertex; }
+std::string lock_shader(bool layer) {
+    return frame_chunk() + lights_chunk() + "in vec3 position;\n" + told_chunk(layer) + kLockFragment;
+}
+
+}  // namespace risorius::render
