@@ -56,6 +56,10 @@ bool along_globe(const Handle& handle) {
     return handle.kind == Handle::Kind::kLid || handle.kind == Handle::Kind::kLeanLid;
 }
 
+bool in_front_of_globe(const Handle& handle) {
+    return handle.kind == Handle::Kind::kNear || handle.kind == Handle::Kind::kCorner;
+}
+
 bool leans(const Handle& handle) {
     return handle.kind == Handle::Kind::kLean || handle.kind == Handle::Kind::kLeanLid;
 }
@@ -65,7 +69,7 @@ Vec3 displacement(const Vec3& p, const std::vector<Force>& forces, double half) 
     Vec3 sum = Vec3::Zero();
     for (const Force& force : forces) {
         const Handle& h = force.handle;
-        if (along_globe(h) || h.kind == Handle::Kind::kNear) continue;
+        if (along_globe(h) || in_front_of_globe(h)) continue;
         const bool middle = h.at.x() == 0;
         for (const double side : {1.0, -1.0}) {
             if (middle && side < 0) continue;
@@ -106,15 +110,25 @@ class Warp {
 
   private:
     Vec3 over_globe(const Vec3& p, const Vec3& q) const {
-        Vec3 by = Vec3::Zero(), in_front = Vec3::Zero();
+        constexpr double kEdge = 1.2, kOpen = 4.5;  // mm from the globe: edge of the lid, free skin
+        const double t = std::clamp((gap_of(p - globe_.centre) - kEdge) / (kOpen - kEdge), 0., 1.);
+        Vec3 by = Vec3::Zero(), front = Vec3::Zero();
         for (const Force& force : forces_) {
             const Handle& h = force.handle;
-            if (!along_globe(h) && h.kind != Handle::Kind::kNear) continue;
+            if (!along_globe(h) && !in_front_of_globe(h)) continue;
             const double weight = force.strength * (leans(h) ? half_ : 1.0) *
                                   bell((p - h.at).norm() / h.reach_mm);
-            (along_globe(h) ? by : in_front) += weight * h.by;
+            if (along_globe(h))
+                by += weight * h.by;
+            else
+                front += weight * (h.kind == Handle::Kind::kNear ? t * t * (3 - 2 * t) : 1) * h.by;
         }
-        return in_front_of_globe(p, slid(q, by), in_front);
+        return kept_clear(p, slid(q, by), front);
+    }
+
+    double gap_of(const Vec3& from) const {
+        const double distance = from.norm();
+        return distance - globe_.radius_at(from.z() / distance);
     }
 
     Vec3 slid(const Vec3& q, const Vec3& by) const {
@@ -126,19 +140,13 @@ class Warp {
         return centre + to * (globe_.radius_at(to.z()) + gap);
     }
 
-    /// The edge of the lid stays, what lies farther from the globe is moved, and nothing comes nearer to it than kLeast of its gap.
-    Vec3 in_front_of_globe(const Vec3& p, const Vec3& q, const Vec3& by) const {
+    /// Nothing comes nearer to the globe than kLeast of its gap.
+    Vec3 kept_clear(const Vec3& p, const Vec3& q, const Vec3& by) const {
         if (by == Vec3::Zero()) return q;
-        constexpr double kEdge = 1.2, kOpen = 4.5, kLeast = 0.6;  // mm, mm, share
-        const auto gap_of = [&](const Vec3& from) {
-            const double distance = from.norm();
-            return distance - globe_.radius_at(from.z() / distance);
-        };
-        const double was = gap_of(p - globe_.centre);
-        const double t = std::clamp((was - kEdge) / (kOpen - kEdge), 0.0, 1.0);
-        const Vec3 centre = globe_.centre + eye_, from = q + t * t * (3 - 2 * t) * by - centre;
-        const double gap = gap_of(from), least = kLeast * std::max(was, 0.0);
-        return centre + from * (1 + std::max(0.0, least - gap) / from.norm());
+        constexpr double kLeast = 0.6;
+        const Vec3 from = q + by - (globe_.centre + eye_);
+        const double least = kLeast * std::max(gap_of(p - globe_.centre), 0.0);
+        return q + by + from * (std::max(0.0, least - gap_of(from)) / from.norm());
     }
 
     Globe globe_;
@@ -192,7 +200,7 @@ HeadModel deform_within_spread(const HeadModel& average, const DesignTables& tab
         HeadModel model = deform_head(average, tables, identity);
         bool within = true;
         if (identity.model == Model::kPopulation)
-            within = head_quality(model, tables, identity.sex, false).self_intersections == 0;
+            within = !runs_through_itself(model);
         else
             for (const MeasureScore& m : measure_head(model, tables, identity.sex))
                 within = within && std::abs(m.deviation) <= kLargestDeviation;

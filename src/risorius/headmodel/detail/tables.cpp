@@ -207,8 +207,9 @@ const std::map<std::string, Handle::Kind> kFamilyKinds{{"move", Handle::Kind::kM
                                                        {"lid", Handle::Kind::kLid}};
 const std::map<std::string, Handle::Kind> kPopulationKinds{
     {"move", Handle::Kind::kMove}, {"scale", Handle::Kind::kScale},
-    {"lid", Handle::Kind::kLid},   {"near", Handle::Kind::kNear},
-    {"lean", Handle::Kind::kLean}, {"lean_lid", Handle::Kind::kLeanLid}};
+    {"lid", Handle::Kind::kLid},       {"near", Handle::Kind::kNear},
+    {"corner", Handle::Kind::kCorner}, {"lean", Handle::Kind::kLean},
+    {"lean_lid", Handle::Kind::kLeanLid}};
 
 std::vector<Handle> read_handles(const std::filesystem::path& file,
                                  const std::map<std::string, Handle::Kind>& kinds) {
@@ -220,7 +221,7 @@ std::vector<Handle> read_handles(const std::filesystem::path& file,
         const auto kind = kinds.find(row[1]);
         if (kind == kinds.end())
             throw Error(file.string() + ": row " + std::to_string(r + 1),
-                        kinds.count("near") ? "move, scale, lid, near, lean or lean_lid"
+                        kinds.count("near") ? "move, scale, lid, near, corner, lean or lean_lid"
                                             : "move, scale or lid",
                         in_quotes(row[1]));
         const double reach = number(file, row[5]);

@@ -69,10 +69,10 @@ struct Measure {
 };
 
 /// Effect of one parameter on the average head: everything within `reach` of a place is moved along `by`, or scaled about it, on both sides.
-/// kNear acts in front of the globe, but not on the edge of the lid; the lean ones move the sides against each other.
+/// kNear acts in front of the globe, but not on the edge of the lid, and kCorner also there; the lean ones move the sides against each other.
 struct Handle {
     std::string parameter;
-    enum class Kind { kMove, kScale, kLid, kNear, kLean, kLeanLid } kind;
+    enum class Kind { kMove, kScale, kLid, kNear, kCorner, kLean, kLeanLid } kind;
     Vec3 at;
     double reach_mm;  ///< reach of the effect; infinite: it acts everywhere
     Vec3 by;          ///< mm, or percent for kScale, per unit of the parameter
