@@ -249,10 +249,8 @@ void expect_somebody(const HeadModel& model, const Identity& identity) {
     EXPECT_EQ(model.landmarks, average().landmarks);
 }
 
-TEST(Identity, SixAreNamedAndAllArePeople) {
-    const auto names = named_identities();
-    EXPECT_EQ(names.size(), 6u);
-    for (const std::string& name : names) {
+TEST(Identity, SixAreNamedOfTheFamilyAndAllArePeople) {
+    for (const std::string name : {"ada", "bruno", "imani", "kenji", "marta", "oskar"}) {
         const Identity identity = read_identity(identity_file(name), tables());
         EXPECT_EQ(identity.name, name);
         const HeadModel model = deform_head(average(), tables(), identity);

@@ -16,9 +16,26 @@ struct HeadArguments {
     Common common;
     headmodel::IdentityChoice choice;
     headmodel::SculptOptions options;
+    headmodel::CastOptions cast;
 };
 
+void run_cast(HeadArguments& arguments) {
+    headmodel::CastOptions& cast = arguments.cast;
+    const headmodel::IdentityChoice& choice = arguments.choice;
+    cast.seed = choice.seed.value_or(0);
+    cast.sex = choice.sex;
+    cast.age = choice.age;
+    cast.ancestry = choice.ancestry;
+    const auto files = headmodel::write_cast(cast, arguments.options.out);
+    if (arguments.common.json)
+        std::printf("%s\n", json_text(Json{{"files", files}}, 2).c_str());
+    else if (!arguments.common.quiet)
+        std::printf("%s: %d persons and cast.tsv\n", arguments.options.out.string().c_str(),
+                    cast.count);
+}
+
 void run(HeadArguments& arguments) {
+    if (arguments.cast.count != 0) return run_cast(arguments);
     arguments.options.identity = headmodel::chosen_identity(arguments.choice);
     if (!arguments.choice.identity.empty()) arguments.options.place = arguments.choice.identity;
     headmodel::SculptReport report;
@@ -26,6 +43,7 @@ void run(HeadArguments& arguments) {
         ProgressBar bar(arguments.common);
         report = headmodel::sculpt_head(arguments.options, bar.monitor());
     }
+    if (arguments.options.identity_only && !arguments.common.json) return;
     if (arguments.common.json) {
         std::printf("%s\n", json_text(report.json(), 2).c_str());
     } else if (!arguments.common.quiet) {
@@ -50,7 +68,9 @@ std::string footer() {
         text = "Identities:" + listed(headmodel::named_identities()) +
                "\nShapes, in standard deviations from -2 to 2:" +
                listed(headmodel::shape_parameters(tables)) +
-               "\nSkin:" + listed(headmodel::tone_names(tables, "skin")) +
+               "\nShapes of the population, from -4 to 4 about the mean of sex, age and ancestry:" +
+               listed(headmodel::shape_parameters(tables, headmodel::Model::kPopulation)) +
+               "\nAncestry:" + listed(tables.ancestries) + "\nSkin:" + listed(headmodel::tone_names(tables, "skin")) +
                "\nIris:" + listed(headmodel::tone_names(tables, "iris")) +
                "\nHair:" + listed(headmodel::tone_names(tables, "hair")) + "\n";
     } catch (const Error& error) {
@@ -58,7 +78,31 @@ std::string footer() {
     }
     return text +
            "\nExamples:\n  risorius head --seed 7 -o out/seven\n"
-           "  risorius head --sex -1 --age 62 --shape lips=0.8 --shape face_width=-1 -o out/eva";
+           "  risorius head --sex -1 --age 62 --shape lips=0.8 --shape face_width=-1 -o out/eva\n"
+           "  risorius head --cast 24 --seed 1 --balance sex,age,ancestry -o out/cast\n"
+           "  risorius head --morph out/cast/p01.json out/cast/p02.json 0.5 -o out/between";
+}
+
+void add_people(CLI::App& command, HeadArguments& arguments) {
+    headmodel::IdentityChoice& choice = arguments.choice;
+    command
+        .add_option("--morph", choice.morph,
+                    "A B SHARE: the head between the identities A and B; 0 is A, 1 is B")
+        ->expected(3);
+    command.add_option("--average", choice.average, "The mean of these identities")
+        ->expected(1, 1000);
+    command.add_option("--exaggerate", choice.exaggerate,
+                       "Multiply what distinguishes the person from the mean: 1.5 gives a "
+                       "caricature, 0.5 an anti-caricature");
+    command.add_flag("--identity-only", arguments.options.identity_only,
+                     "Write only identity.json, which takes less than a second");
+    command.add_option("--cast", arguments.cast.count,
+                       "Choose this many persons that differ, 2 to 200, with --seed. Writes their "
+                       "identities, p01.json and so on, and the table cast.tsv, but no heads");
+    command
+        .add_option("--balance", arguments.cast.balance,
+                    "What a cast has equally often: sex, age, ancestry, or several of them")
+        ->delimiter(',');
 }
 
 }  // namespace
@@ -78,6 +122,14 @@ void add_head(CLI::App& app) {
     command->add_option("--shape", choice.shape,
                         "PARAMETER=NUMBER, -2 to 2; repeat for several. The parameters are listed "
                         "below");
+    command
+        ->add_option("--model", choice.model,
+                     "1: shapes vary the average adult. 2: they vary the mean of a sex, age and "
+                     "ancestry, and --seed draws from a population. Default: 1")
+        ->check(CLI::IsMember({1, 2}));
+    command->add_option("--ancestry", choice.ancestry,
+                        "Ancestry; the names are below. It means --model 2");
+    add_people(*command, *arguments);
     command->add_option("--skin", choice.skin, "Tone of the skin; the names are below");
     command->add_option("--iris", choice.iris, "Colour of the eyes; the names are below");
     command->add_option("--hair", choice.hair, "Colour of brows and hair; the names are below");

@@ -207,6 +207,14 @@ std::vector<MeasureScore> measure_head(const HeadModel& model, const DesignTable
     return scores;
 }
 
+bool runs_through_itself(const HeadModel& model) {
+    const geom::PolygonMesh& mesh = model.mesh;
+    return !geom::self_intersections(
+                mesh.positions,
+                geom::triangulate(mesh, {mesh.group_index("skin"), mesh.group_index("mouth")}))
+                .empty();
+}
+
 HeadQuality head_quality(const HeadModel& model, const DesignTables& tables, double sex,
                          bool compare_with_relief) {
     HeadQuality quality;

@@ -54,6 +54,9 @@ struct HeadQuality {
 HeadQuality head_quality(const HeadModel& model, const DesignTables& tables, double sex = 0,
                          bool compare_with_relief = true);
 
+/// Whether triangles of skin or mouth cut each other.
+bool runs_through_itself(const HeadModel& model);
+
 std::string quality_report(const HeadQuality& quality);
 
 /// Computes only the measures, which is fast.

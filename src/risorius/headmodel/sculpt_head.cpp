@@ -2,6 +2,7 @@
 #include "risorius/headmodel/sculpt_head.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/data_folder.h"
@@ -10,6 +11,7 @@
 #include "risorius/fitting/fit_rig.h"
 #include "risorius/headmodel/detail/deform_head.h"
 #include "risorius/headmodel/detail/head_textures.h"
+#include "risorius/headmodel/detail/population.h"
 #include "risorius/media/image_file.h"
 #include "risorius/render/offscreen_view.h"
 #include "risorius/report/atomic_file.h"
@@ -31,6 +33,7 @@ constexpr const char* kIdentityFile = "identity.json";
 constexpr const char* kRigFile = "rig.json";
 constexpr const char* kViews = "views.png";
 constexpr const char* kResults = "results.json";
+constexpr const char* kCastTable = "cast.tsv";
 
 headmodel::DesignTables design_tables() {
     return headmodel::read_design_tables(headmodel::models_folder() / "adult/design");
@@ -87,25 +90,86 @@ void take_calibration(const fs::path& standard, Json& rig) {
     if (adult.contains("unit_gains")) rig["unit_gains"] = adult["unit_gains"];
 }
 
+double number_in(const std::string& digits, const char* option, const char* expected,
+                 const std::string& found) {
+    std::size_t used = 0;
+    double value = 0;
+    try {
+        value = std::stod(digits, &used);
+    } catch (const std::exception&) {
+        used = 0;
+    }
+    if (used == 0 || used != digits.size())
+        throw Error(option_name(option), expected, in_quotes(found));
+    return value;
+}
+
+headmodel::Identity identity_called(const std::string& name, const char* option,
+                                    const headmodel::DesignTables& tables) {
+    fs::path file = name;
+    if (file.extension() != ".json") {
+        index_of_name(option_name(option), name, headmodel::named_identities());
+        file = headmodel::identity_file(name);
+    }
+    return headmodel::read_identity(file, tables);
+}
+
+headmodel::Identity morph_of(const std::vector<std::string>& words,
+                             const headmodel::DesignTables& tables) {
+    constexpr double kFarthest = 2;
+    constexpr const char* kExpected = "two identities and a share from -2 to 2";
+    if (words.size() != 3)
+        throw Error(option_name("morph"), kExpected, std::to_string(words.size()) + " words");
+    const double share = number_in(words[2], "morph", kExpected, words[2]);
+    if (!(std::abs(share) <= kFarthest))
+        throw Error(option_name("morph"), kExpected, in_quotes(words[2]));
+    return headmodel::morph(identity_called(words[0], "morph", tables),
+                            identity_called(words[1], "morph", tables), share);
+}
+
+/// The identity that the others fields of the choice then change.
+headmodel::Identity begun_identity(const IdentityChoice& choice,
+                                   const headmodel::DesignTables& tables) {
+    constexpr double kStrongest = 3;
+    if (choice.exaggerate && !(std::abs(*choice.exaggerate) <= kStrongest))
+        throw Error(option_name("exaggerate"), "a factor from -3 to 3",
+                    format_number(*choice.exaggerate));
+    const int sources = (choice.identity.empty() ? 0 : 1) + (choice.seed ? 1 : 0) +
+                        (choice.morph.empty() ? 0 : 1) + (choice.average.empty() ? 0 : 1);
+    if (choice.seed && !choice.identity.empty())
+        throw Error(option_name("seed"), "a seed or " + option_name("identity"), "both");
+    if (sources > 1)
+        throw Error(option_name(choice.morph.empty() ? "average" : "morph"),
+                    "no other source of the identity", "one");
+    const bool person = choice.model ? *choice.model == 2 : choice.ancestry.has_value();
+    if (!choice.identity.empty()) return identity_called(choice.identity, "identity", tables);
+    if (!choice.morph.empty()) return morph_of(choice.morph, tables);
+    if (!choice.average.empty()) {
+        std::vector<headmodel::Identity> persons;
+        for (const std::string& name : choice.average)
+            persons.push_back(identity_called(name, "average", tables));
+        return headmodel::average_of(persons);
+    }
+    if (choice.seed && person)
+        return headmodel::random_person(*choice.seed, {choice.sex, choice.age, choice.ancestry},
+                                        tables);
+    if (choice.seed) return headmodel::random_identity(*choice.seed, tables);
+    headmodel::Identity identity;
+    if (person) {
+        identity.model = headmodel::Model::kPopulation;
+        identity.name = "mean";
+    }
+    return identity;
+}
+
 }  // namespace
 
 headmodel::Identity chosen_identity(const IdentityChoice& choice) {
     const headmodel::DesignTables tables = design_tables();
-    if (choice.seed && !choice.identity.empty())
-        throw Error(option_name("seed"), "a seed or " + option_name("identity"), "both");
-    headmodel::Identity identity;
-    if (!choice.identity.empty()) {
-        fs::path file = choice.identity;
-        if (file.extension() != ".json") {
-            index_of_name(option_name("identity"), choice.identity, headmodel::named_identities());
-            file = headmodel::identity_file(choice.identity);
-        }
-        identity = headmodel::read_identity(file, tables);
-    } else if (choice.seed) {
-        identity = headmodel::random_identity(*choice.seed, tables);
-    }
+    headmodel::Identity identity = begun_identity(choice, tables);
     identity.sex = choice.sex.value_or(identity.sex);
     identity.age = choice.age.value_or(identity.age);
+    if (choice.ancestry) identity.ancestry = {{*choice.ancestry, 1}};
     identity.skin = choice.skin.value_or(identity.skin);
     identity.iris = choice.iris.value_or(identity.iris);
     identity.hair = choice.hair.value_or(identity.hair);
@@ -114,21 +178,32 @@ headmodel::Identity chosen_identity(const IdentityChoice& choice) {
         headmodel::deform_within_spread(headmodel::make_head(tables), tables, identity);
     for (const std::string& text : choice.shape) {
         const std::size_t equals = text.find('=');
-        std::size_t used = 0;
-        double value = 0;
-        if (equals != std::string::npos) {
-            try {
-                value = std::stod(text.substr(equals + 1), &used);
-            } catch (const std::exception&) {
-                used = 0;
-            }
-        }
-        if (used == 0 || equals + 1 + used != text.size())
+        if (equals == std::string::npos)
             throw Error(option_name("shape"), "PARAMETER=NUMBER", in_quotes(text));
-        identity.shape[text.substr(0, equals)] = value;
+        identity.shape[text.substr(0, equals)] =
+            number_in(text.substr(equals + 1), "shape", "PARAMETER=NUMBER", text);
     }
     headmodel::check_identity(identity, tables, option_name);
+    if (choice.exaggerate) identity = headmodel::exaggerate(identity, *choice.exaggerate);
     return identity;
+}
+
+std::vector<std::string> write_cast(const CastOptions& options, const fs::path& out) {
+    const headmodel::DesignTables tables = design_tables();
+    const auto cast = headmodel::choose_cast(options, tables);
+    report::AtomicFolder folder(out);
+    std::vector<std::string> files;
+    for (const headmodel::CastMember& member : cast) {
+        files.push_back(member.identity.name + ".json");
+        report::write_text(folder.partial() / files.back(),
+                           json_text(headmodel::identity_json(member.identity), 2) + "\n");
+    }
+    report::write_text(folder.partial() / kCastTable, headmodel::cast_table(cast, tables));
+    files.insert(files.end(), {kCastTable, kResults});
+    report::write_text(folder.partial() / kResults,
+                       json_text(Json{{report::kFilesKey, files}}, 2) + "\n");
+    folder.commit();
+    return files;
 }
 
 SculptReport sculpt_head(const SculptOptions& options, const ProgressMonitor& monitor) {
@@ -145,15 +220,25 @@ SculptReport sculpt_head(const SculptOptions& options, const ProgressMonitor& mo
         headmodel::deform_head(headmodel::make_head(tables), tables, options.identity);
     headmodel::check_spread(model, tables, options.identity, options.place);
     report.quality = headmodel::head_quality(model, tables, options.identity.sex, false);
+    if (report.quality.self_intersections > 0)
+        throw Error(options.place, "a head that does not run through itself",
+                    std::to_string(report.quality.self_intersections) +
+                        " pairs of triangles that do");
 
-    // Write mesh, landmarks and who it is
+    // Write who it is, mesh and landmarks
     report::AtomicFolder folder(options.out);
     const fs::path partial = folder.partial();
-    const bool textured = options.texture_px > 0;
-    headmodel::write_head(model, partial, textured ? kTextureLibrary : "");
     report::write_text(partial / kIdentityFile,
                        json_text(headmodel::identity_json(options.identity), 2) + "\n");
-    report.files = {kMeshFile, kLandmarks, kRegions, kIdentityFile, kResults};
+    report.files = {kIdentityFile, kResults};
+    if (options.identity_only) {
+        report::write_text(partial / kResults, json_text(report.json(), 2) + "\n");
+        folder.commit();
+        return report;
+    }
+    const bool textured = options.texture_px > 0;
+    headmodel::write_head(model, partial, textured ? kTextureLibrary : "");
+    report.files.insert(report.files.end(), {kMeshFile, kLandmarks, kRegions});
 
     // Give it muscles, and colours of its own
     if (!options.mesh_only) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "risorius/core/progress_monitor.h"
+#include "risorius/headmodel/cast.h"
 #include "risorius/headmodel/detail/identity.h"
 #include "risorius/headmodel/head_quality.h"
 
@@ -19,6 +20,7 @@ struct SculptOptions {
     headmodel::Identity identity;  ///< who
     std::string place = "head";    ///< where the identity was read, for messages
     bool mesh_only = false;        ///< no rig and no picture
+    bool identity_only = false;    ///< only identity.json
     int texture_px =
         0;  ///< side of a picture of the skin's colours, those of the other parts half of it; 0: none
     bool calibrate =
@@ -37,16 +39,24 @@ struct SculptReport {
     Json json() const;
 };
 
-/// The identity that a command line asks for, checked: a named one, a file or a seed, and then the fields that are set.
+/// The identity that a command line asks for, checked: a named one, a file, a seed, one between or in the middle of others, and then the fields that are set.
 struct IdentityChoice {
     std::string identity{};  ///< a name of models/identities, or a file; empty: the average adult
     std::optional<unsigned> seed{};
     std::optional<double> sex{}, age{};
     std::vector<std::string> shape{};  ///< "lips=1.2"
     std::optional<std::string> skin{}, iris{}, hair{};
+    std::optional<int> model{};             ///< 2: of the population; 1, if nothing else says so
+    std::optional<std::string> ancestry{};  ///< means model 2
+    std::vector<std::string> morph{};       ///< two names or files, and the share of the second
+    std::vector<std::string> average{};     ///< names or files
+    std::optional<double> exaggerate{};     ///< factor of what distinguishes the person
 };
 /// Returns the identity. Throws Error that names the option.
 headmodel::Identity chosen_identity(const IdentityChoice& choice);
+
+/// Writes the persons of a cast as identities, one file each, and cast.tsv into a folder. Returns the names of the files.
+std::vector<std::string> write_cast(const CastOptions& options, const std::filesystem::path& out);
 
 /// Throws Error when the identity is outside of the range of adults, or the folder holds other files; then nothing is written.
 SculptReport sculpt_head(const SculptOptions& options, const ProgressMonitor& monitor = {});

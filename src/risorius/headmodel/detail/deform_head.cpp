@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/headmodel/detail/deform_head.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "risorius/core/error.h"
 #include "risorius/headmodel/detail/eyes.h"
+#include "risorius/headmodel/detail/population.h"
 
 namespace risorius::headmodel {
 namespace {
@@ -20,7 +22,21 @@ struct Force {
     double strength;
 };
 
+/// Of persons of the population: what is usual at their sex, age and ancestry, and what is their own.
+std::vector<Force> forces_of_person(const DesignTables& tables, const Identity& identity) {
+    std::vector<Force> forces;
+    const auto strengths = person_shape(identity, tables);
+    for (const Handle& handle : tables.population_handles) {
+        const double strength = handle.parameter == "sex"   ? identity.sex
+                                : handle.parameter == "age" ? (identity.age - 40.0) / 40.0
+                                                            : strengths.at(handle.parameter);
+        if (strength != 0) forces.push_back({handle, strength});
+    }
+    return forces;
+}
+
 std::vector<Force> forces_of(const DesignTables& tables, const Identity& identity) {
+    if (identity.model == Model::kPopulation) return forces_of_person(tables, identity);
     std::vector<Force> forces;
     for (const Handle& handle : tables.handles) {
         double strength = 0;
@@ -36,12 +52,24 @@ std::vector<Force> forces_of(const DesignTables& tables, const Identity& identit
     return forces;
 }
 
-/// Of handles at both sides on a point of the left side or the midline.
-Vec3 displacement(const Vec3& p, const std::vector<Force>& forces) {
+bool along_globe(const Handle& handle) {
+    return handle.kind == Handle::Kind::kLid || handle.kind == Handle::Kind::kLeanLid;
+}
+
+bool in_front_of_globe(const Handle& handle) {
+    return handle.kind == Handle::Kind::kNear || handle.kind == Handle::Kind::kCorner;
+}
+
+bool leans(const Handle& handle) {
+    return handle.kind == Handle::Kind::kLean || handle.kind == Handle::Kind::kLeanLid;
+}
+
+/// Of handles at both sides on a point of the left side or the midline. `half`: 1; -1 for the mirror image of the right side.
+Vec3 displacement(const Vec3& p, const std::vector<Force>& forces, double half) {
     Vec3 sum = Vec3::Zero();
     for (const Force& force : forces) {
         const Handle& h = force.handle;
-        if (h.kind == Handle::Kind::kLid) continue;
+        if (along_globe(h) || in_front_of_globe(h)) continue;
         const bool middle = h.at.x() == 0;
         for (const double side : {1.0, -1.0}) {
             if (middle && side < 0) continue;
@@ -50,9 +78,15 @@ Vec3 displacement(const Vec3& p, const std::vector<Force>& forces) {
                 force.strength *
                 (std::isinf(h.reach_mm) ? 1.0 : bell((p - at).norm() / h.reach_mm));
             if (weight == 0) continue;
-            sum += h.kind == Handle::Kind::kMove
-                       ? Vec3(weight * Vec3(side * h.by.x(), h.by.y(), h.by.z()))
-                       : Vec3(weight * 0.01 * h.by.cwiseProduct(p - at));
+            if (h.kind == Handle::Kind::kScale)
+                sum += Vec3(weight * 0.01 * h.by.cwiseProduct(p - at));
+            else if (h.kind == Handle::Kind::kLean)
+                sum += middle ? Vec3(weight * half * h.by.x(), weight * h.by.y(),
+                                     weight * h.by.z())
+                              : Vec3(side * half * weight *
+                                     Vec3(side * h.by.x(), h.by.y(), h.by.z()));
+            else
+                sum += Vec3(weight * Vec3(side * h.by.x(), h.by.y(), h.by.z()));
         }
     }
     return sum;
@@ -60,8 +94,8 @@ Vec3 displacement(const Vec3& p, const std::vector<Force>& forces) {
 
 class Warp {
   public:
-    Warp(const DesignTables& tables, const Identity& identity)
-        : forces_(forces_of(tables, identity)), eye_(displacement(globe_.centre, forces_)) {}
+    Warp(const std::vector<Force>& forces, double half)
+        : forces_(forces), half_(half), eye_(displacement(globe_.centre, forces_, half)) {}
 
     Vec3 globe_shift() const { return eye_; }
 
@@ -70,17 +104,34 @@ class Warp {
         const double t =
             std::clamp(((p - globe_.centre).norm() - kRigid) / (kFree - kRigid), 0.0, 1.0);
         const double freedom = t * t * (3 - 2 * t);
-        const Vec3 q = p + eye_ + freedom * (displacement(p, forces_) - eye_);
+        const Vec3 q = p + eye_ + freedom * (displacement(p, forces_, half_) - eye_);
         return over_globe(p, q);
     }
 
   private:
     Vec3 over_globe(const Vec3& p, const Vec3& q) const {
-        Vec3 by = Vec3::Zero();
-        for (const Force& force : forces_)
-            if (force.handle.kind == Handle::Kind::kLid)
-                by += force.strength * bell((p - force.handle.at).norm() / force.handle.reach_mm) *
-                      force.handle.by;
+        constexpr double kEdge = 1.2, kOpen = 4.5;  // mm from the globe: edge of the lid, free skin
+        const double t = std::clamp((gap_of(p - globe_.centre) - kEdge) / (kOpen - kEdge), 0., 1.);
+        Vec3 by = Vec3::Zero(), front = Vec3::Zero();
+        for (const Force& force : forces_) {
+            const Handle& h = force.handle;
+            if (!along_globe(h) && !in_front_of_globe(h)) continue;
+            const double weight = force.strength * (leans(h) ? half_ : 1.0) *
+                                  bell((p - h.at).norm() / h.reach_mm);
+            if (along_globe(h))
+                by += weight * h.by;
+            else
+                front += weight * (h.kind == Handle::Kind::kNear ? t * t * (3 - 2 * t) : 1) * h.by;
+        }
+        return kept_clear(p, slid(q, by), front);
+    }
+
+    double gap_of(const Vec3& from) const {
+        const double distance = from.norm();
+        return distance - globe_.radius_at(from.z() / distance);
+    }
+
+    Vec3 slid(const Vec3& q, const Vec3& by) const {
         if (by == Vec3::Zero()) return q;
         const Vec3 centre = globe_.centre + eye_, from = q - centre;
         const double distance = from.norm();
@@ -89,8 +140,18 @@ class Warp {
         return centre + to * (globe_.radius_at(to.z()) + gap);
     }
 
+    /// Nothing comes nearer to the globe than kLeast of its gap.
+    Vec3 kept_clear(const Vec3& p, const Vec3& q, const Vec3& by) const {
+        if (by == Vec3::Zero()) return q;
+        constexpr double kLeast = 0.6;
+        const Vec3 from = q + by - (globe_.centre + eye_);
+        const double least = kLeast * std::max(gap_of(p - globe_.centre), 0.0);
+        return q + by + from * (std::max(0.0, least - gap_of(from)) / from.norm());
+    }
+
     Globe globe_;
     std::vector<Force> forces_;
+    double half_;
     Vec3 eye_;
 };
 
@@ -100,8 +161,11 @@ HeadModel deform_head(const HeadModel& average, const DesignTables& tables,
                       const Identity& identity) {
     HeadModel model = average;
     geom::PolygonMesh& mesh = model.mesh;
-    const Warp warp(tables, identity);
-    if (forces_of(tables, identity).empty()) return model;
+    const std::vector<Force> forces = forces_of(tables, identity);
+    if (forces.empty()) return model;
+    const Warp left(forces, 1), right(forces, -1);
+    const bool uneven =
+        std::any_of(forces.begin(), forces.end(), [](const Force& f) { return leans(f.handle); });
     std::vector<double> globe(static_cast<std::size_t>(mesh.vertex_count()), 0.0);
     for (int f = 0; f < mesh.face_count(); ++f) {
         const std::string& group = mesh.group_names[static_cast<std::size_t>(mesh.face_group[f])];
@@ -114,15 +178,15 @@ HeadModel deform_head(const HeadModel& average, const DesignTables& tables,
         Vec3 p = mesh.positions.row(v).transpose();
         const double eye = globe[static_cast<std::size_t>(v)];
         if (eye != 0) {
-            const Vec3 shift = warp.globe_shift();
+            const Vec3 shift = (eye < 0 ? right : left).globe_shift();
             mesh.positions.row(v) += Vec3(eye * shift.x(), shift.y(), shift.z()).transpose();
             continue;
         }
         const double side = p.x() < 0 ? -1 : 1;
         const bool middle = p.x() == 0;
         p.x() = std::abs(p.x());
-        Vec3 q = warp.moved(p);
-        q.x() = middle ? 0 : side * q.x();
+        Vec3 q = (side < 0 ? right : left).moved(p);
+        q.x() = middle && !uneven ? 0 : side * q.x();
         mesh.positions.row(v) = q.transpose();
     }
     return model;
@@ -135,8 +199,11 @@ HeadModel deform_within_spread(const HeadModel& average, const DesignTables& tab
     for (int step = 0;; ++step) {
         HeadModel model = deform_head(average, tables, identity);
         bool within = true;
-        for (const MeasureScore& m : measure_head(model, tables, identity.sex))
-            within = within && std::abs(m.deviation) <= kLargestDeviation;
+        if (identity.model == Model::kPopulation)
+            within = !runs_through_itself(model);
+        else
+            for (const MeasureScore& m : measure_head(model, tables, identity.sex))
+                within = within && std::abs(m.deviation) <= kLargestDeviation;
         if (within || step == kSteps) return model;
         const double fraction = 1.0 - static_cast<double>(step + 1) / kSteps;
         for (auto& [parameter, value] : identity.shape)
@@ -146,6 +213,7 @@ HeadModel deform_within_spread(const HeadModel& average, const DesignTables& tab
 
 void check_spread(const HeadModel& model, const DesignTables& tables, const Identity& identity,
                   const std::string& place) {
+    if (identity.model == Model::kPopulation) return;
     for (const MeasureScore& m : measure_head(model, tables, identity.sex))
         if (std::abs(m.deviation) > kLargestDeviation) {
             char found[160];

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <set>
 
 #include "risorius/core/error.h"
 #include "risorius/core/known_names.h"
+#include "risorius/headmodel/detail/draw.h"
 
 namespace risorius::headmodel {
 namespace {
@@ -19,31 +19,15 @@ void check_range(const std::string& place, double value, Range range) {
                     format_number(value));
 }
 
-/// Even numbers from a generator whose sequence the standard fixes; its distributions are not fixed.
-class Draw {
-  public:
-    explicit Draw(unsigned seed) : generator_(seed) {}
-    double even() { return static_cast<double>(generator_() >> 11) * 0x1.0p-53; }
-    /// Twelve even ones are normal enough, and need no library function.
-    double normal() {
-        double sum = -6;
-        for (int k = 0; k < 12; ++k) sum += even();
-        return sum;
-    }
-    const std::string& one_of(const std::vector<std::string>& names) {
-        return names[static_cast<std::size_t>(even() * static_cast<double>(names.size()))];
-    }
-
-  private:
-    std::mt19937_64 generator_;
-};
-
-double to_hundredths(double value) { return std::round(value * 100) / 100 + 0.0; }
-
 }  // namespace
 
-std::vector<std::string> shape_parameters(const DesignTables& tables) {
+std::vector<std::string> shape_parameters(const DesignTables& tables, Model model) {
     std::vector<std::string> names;
+    if (model == Model::kPopulation) {
+        for (const PopulationParameter& parameter : tables.population)
+            names.push_back(parameter.name);
+        return names;
+    }
     for (const Handle& handle : tables.handles)
         if (handle.parameter != "sex" && handle.parameter != "age" &&
             std::find(names.begin(), names.end(), handle.parameter) == names.end())
@@ -65,11 +49,23 @@ void check_identity(const Identity& identity, const DesignTables& tables, const 
     check_range(place("hairline"), identity.hairline, kHairRange);
     check_range(place("temples"), identity.temples, kHairRange);
     check_range(place("beard"), identity.beard, {0, 1});
-    const auto names = shape_parameters(tables);
+    const auto names = shape_parameters(tables, identity.model);
+    const bool person = identity.model == Model::kPopulation;
     for (const auto& [parameter, value] : identity.shape) {
         index_of_name(place("shape"), parameter, names);
-        check_range(place("shape") + "/" + parameter, value, kShapeRange);
+        check_range(place("shape") + "/" + parameter, value,
+                    person ? kPersonShapeRange : kShapeRange);
     }
+    if (!person && !identity.ancestry.empty())
+        throw Error(place("ancestry"), "none, as the model is 1", "one");
+    double shares = 0;
+    for (const auto& [name, share] : identity.ancestry) {
+        index_of_name(place("ancestry"), name, tables.ancestries);
+        check_range(place("ancestry") + "/" + name, share, {0, 1});
+        shares += share;
+    }
+    if (!identity.ancestry.empty() && std::abs(shares - 1) > 1e-3)
+        throw Error(place("ancestry"), "shares that sum to 1", format_number(shares));
     index_of_name(place("skin"), identity.skin, tone_names(tables, "skin"));
     index_of_name(place("iris"), identity.iris, tone_names(tables, "iris"));
     index_of_name(place("hair"), identity.hair, tone_names(tables, "hair"));
@@ -77,12 +73,16 @@ void check_identity(const Identity& identity, const DesignTables& tables, const 
 
 Identity read_identity(const std::filesystem::path& file, const DesignTables& tables) {
     const JsonCursor json = JsonCursor::read_file(file);
-    json.allow_keys({"format", "version", "name", "sex", "age", "shape", "skin", "iris", "hair",
+    json.allow_keys({"format", "version", "name", "model", "ancestry", "sex", "age", "shape", "skin", "iris", "hair",
                      "freckles", "scalp_hair", "hairline", "temples", "beard"});
     json.at("format").one_of({"risorius-identity"});
     json.at("version").integer(1, 1);
     Identity identity;
     identity.name = json.has("name") ? json.at("name").string() : file.stem().string();
+    if (json.has("model")) identity.model = static_cast<Model>(json.at("model").integer(1, 2));
+    if (const auto ancestry = json.find("ancestry"))
+        for (const std::string& key : ancestry->keys())
+            identity.ancestry[key] = ancestry->at(key).number();
     const auto number = [&](const char* key, double& value) {
         if (json.has(key)) value = json.at(key).number();
     };
@@ -111,6 +111,11 @@ Json identity_json(const Identity& identity) {
     json["format"] = "risorius-identity";
     json["version"] = 1;
     json["name"] = identity.name;
+    if (identity.model == Model::kPopulation) {
+        json["model"] = static_cast<int>(identity.model);
+        json["ancestry"] = Json::object();
+        for (const auto& [name, share] : identity.ancestry) json["ancestry"][name] = share;
+    }
     json["sex"] = identity.sex;
     json["age"] = identity.age;
     json["shape"] = Json::object();

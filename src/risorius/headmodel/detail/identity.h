@@ -18,9 +18,17 @@
 namespace risorius::headmodel {
 
 inline constexpr Range kSexRange{-1, 1}, kAgeRange{20, 80}, kShapeRange{-2, 2}, kHairRange{-10, 40};
+/// Of persons of the population: those drawn are within 2.5, and caricatures beyond.
+inline constexpr Range kPersonShapeRange{-4, 4};
+
+enum class Model { kFamily = 1, kPopulation = 2 };
 
 struct Identity {
     std::string name = "adult";
+    /// How shapes are meant: as variations of the average adult, or as those from the mean of a sex, age and ancestry.
+    Model model = Model::kFamily;
+    /// Name of an ancestry -> its share; only of the population. The shares sum to 1, or there are none.
+    std::map<std::string, double> ancestry;
     double sex = 0;   ///< -1 the average woman, 1 the average man
     double age = 40;  ///< years
     /// Name of a parameter -> its value in standard deviations; a parameter that is absent is 0
@@ -34,7 +42,8 @@ struct Identity {
 };
 
 /// Returns the names of the parameters of the table except sex and age, in its order.
-std::vector<std::string> shape_parameters(const DesignTables& tables);
+std::vector<std::string> shape_parameters(const DesignTables& tables,
+                                          Model model = Model::kFamily);
 
 /// Returns the names that the tone of a part may have. `part`: skin, iris or hair.
 std::vector<std::string> tone_names(const DesignTables& tables, const std::string& part);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/headmodel/detail/tables.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -201,10 +202,17 @@ std::vector<Measure> read_measures(const std::filesystem::path& file) {
     return measures;
 }
 
-std::vector<Handle> read_handles(const std::filesystem::path& file) {
-    const std::map<std::string, Handle::Kind> kinds{{"move", Handle::Kind::kMove},
-                                                    {"scale", Handle::Kind::kScale},
-                                                    {"lid", Handle::Kind::kLid}};
+const std::map<std::string, Handle::Kind> kFamilyKinds{{"move", Handle::Kind::kMove},
+                                                       {"scale", Handle::Kind::kScale},
+                                                       {"lid", Handle::Kind::kLid}};
+const std::map<std::string, Handle::Kind> kPopulationKinds{
+    {"move", Handle::Kind::kMove}, {"scale", Handle::Kind::kScale},
+    {"lid", Handle::Kind::kLid},       {"near", Handle::Kind::kNear},
+    {"corner", Handle::Kind::kCorner}, {"lean", Handle::Kind::kLean},
+    {"lean_lid", Handle::Kind::kLeanLid}};
+
+std::vector<Handle> read_handles(const std::filesystem::path& file,
+                                 const std::map<std::string, Handle::Kind>& kinds) {
     std::vector<Handle> handles;
     const auto cells = read_csv(file);
     if (cells[0].size() != 9) throw Error(file.string(), "nine columns", cells[0][0]);
@@ -212,7 +220,9 @@ std::vector<Handle> read_handles(const std::filesystem::path& file) {
         const auto& row = cells[r];
         const auto kind = kinds.find(row[1]);
         if (kind == kinds.end())
-            throw Error(file.string() + ": row " + std::to_string(r + 1), "move, scale or lid",
+            throw Error(file.string() + ": row " + std::to_string(r + 1),
+                        kinds.count("near") ? "move, scale, lid, near, corner, lean or lean_lid"
+                                            : "move, scale or lid",
                         in_quotes(row[1]));
         const double reach = number(file, row[5]);
         handles.push_back({row[0], kind->second,
@@ -221,6 +231,33 @@ std::vector<Handle> read_handles(const std::filesystem::path& file) {
                            Vec3(number(file, row[6]), number(file, row[7]), number(file, row[8]))});
     }
     return handles;
+}
+
+/// Columns: parameter,mean,sex,age,late_age, the ancestries, own, and the modes.
+void read_population(const std::filesystem::path& file, DesignTables& tables) {
+    constexpr std::size_t kFirstAncestry = 5;
+    const auto cells = read_csv(file);
+    const auto own = static_cast<std::size_t>(
+        std::find(cells[0].begin(), cells[0].end(), "own") - cells[0].begin());
+    if (own <= kFirstAncestry || own >= cells[0].size())
+        throw Error(file.string(), "ancestries and then a column own", cells[0].back());
+    tables.ancestries.assign(cells[0].begin() + kFirstAncestry,
+                             cells[0].begin() + static_cast<long>(own));
+    for (std::size_t r = 1; r < cells.size(); ++r) {
+        const auto row = numbers_of(file, cells[r], 1, cells[0].size() - 1);
+        const auto part = [&](std::size_t from, std::size_t to) {
+            return std::vector<double>(row.begin() + static_cast<long>(from) - 1,
+                                       row.begin() + static_cast<long>(to) - 1);
+        };
+        tables.population.push_back({cells[r][0], row[0], row[1], row[2], row[3],
+                                     part(kFirstAncestry, own), row[own - 1],
+                                     part(own + 1, cells[0].size())});
+    }
+    for (const Handle& handle : tables.population_handles)
+        if (handle.parameter != "sex" && handle.parameter != "age" &&
+            std::none_of(tables.population.begin(), tables.population.end(),
+                         [&](const auto& p) { return p.name == handle.parameter; }))
+            throw Error(file.string(), "a row of " + handle.parameter, "none");
 }
 
 }  // namespace
@@ -252,7 +289,10 @@ DesignTables read_design_tables(const std::filesystem::path& folder) {
     tables.neck_base = read_bust_edge(folder / "bust_edges.csv", "neck_base");
     tables.bust = read_bust_edge(folder / "bust_edges.csv", "bust");
     tables.measures = read_measures(folder / "anthropometry.csv");
-    tables.handles = read_handles(folder / "parameters.csv");
+    tables.handles = read_handles(folder / "parameters.csv", kFamilyKinds);
+    tables.population_handles =
+        read_handles(folder / "population_handles.csv", kPopulationKinds);
+    read_population(folder / "population.csv", tables);
     const auto tones = folder / "tones.csv";
     for (const auto& row : read_csv(tones))
         if (row.size() == 5 && row[0] != "part")

@@ -69,12 +69,24 @@ struct Measure {
 };
 
 /// Effect of one parameter on the average head: everything within `reach` of a place is moved along `by`, or scaled about it, on both sides.
+/// kNear acts in front of the globe, but not on the edge of the lid, and kCorner also there; the lean ones move the sides against each other.
 struct Handle {
     std::string parameter;
-    enum class Kind { kMove, kScale, kLid } kind;
+    enum class Kind { kMove, kScale, kLid, kNear, kCorner, kLean, kLeanLid } kind;
     Vec3 at;
     double reach_mm;  ///< reach of the effect; infinite: it acts everywhere
     Vec3 by;          ///< mm, or percent for kScale, per unit of the parameter
+};
+
+/// How one parameter is spread among adults, in its standard deviations within a sex and an ancestry.
+struct PopulationParameter {
+    std::string name;
+    double mean;           ///< of all, against the average head
+    double sex, age;       ///< per unit: men 1, women -1; 1 at 80 years, 0 at 40
+    double late_age;       ///< per unit: 1 at 80 years, 0 until 45
+    std::vector<double> ancestry;  ///< added, in the order of DesignTables::ancestries
+    double own;            ///< part that varies by itself
+    std::vector<double> modes;     ///< parts along what all parameters have in common
 };
 
 struct DesignTables {
@@ -96,6 +108,9 @@ struct DesignTables {
     BustEdge neck_base, bust;
     std::vector<Measure> measures;
     std::vector<Handle> handles;
+    std::vector<Handle> population_handles;       ///< of persons of the population
+    std::vector<std::string> ancestries;          ///< sorted
+    std::vector<PopulationParameter> population;  ///< in the order of its table
     std::map<std::string, std::map<std::string, Vec3>> tones;  ///< part, name: sRGB 0..1
 };
 

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/headmodel/detail/population.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "risorius/core/known_names.h"
+#include "risorius/headmodel/detail/draw.h"
+
+namespace risorius::headmodel {
+namespace {
+
+constexpr double kCut = 2.5;  ///< standard deviations; beyond them nobody is drawn
+
+/// Tones that are usual, from the names of the tones table, in thirds.
+struct Colours {
+    std::vector<std::string> skin, iris, hair;
+};
+
+Colours colours_of(const std::string& ancestry) {
+    if (ancestry == "african") return {{"brown", "dark"}, {"brown", "dark"}, {"black"}};
+    if (ancestry == "east_asian")
+        return {{"fair", "olive", "tan"}, {"brown", "dark"}, {"black"}};
+    if (ancestry == "south_asian")
+        return {{"brown", "olive", "tan"}, {"brown", "dark", "hazel"}, {"black"}};
+    return {{"fair", "fair", "pale", "tan"},
+            {"blue", "brown", "green", "grey", "hazel"},
+            {"black", "blond", "brown", "brown", "red"}};
+}
+
+void draw_colours(Draw& draw, const std::string& ancestry, Identity& person) {
+    const Colours colours = colours_of(ancestry);
+    person.skin = draw.one_of(colours.skin);
+    person.iris = draw.one_of(colours.iris);
+    person.hair = draw.one_of(colours.hair);
+    const bool light = person.skin == "pale" || person.skin == "fair";
+    person.freckles = to_hundredths((light ? 0.5 : 0.1) * draw.even() * draw.even());
+    person.beard = to_hundredths((person.sex > 0 ? 0.6 : 0) * draw.even());
+    // Men lose hair with the years, some much and most little.
+    const double lost =
+        draw.even() * (person.sex > 0 ? std::max(0.0, person.age - 25) / 50 : 0.1);
+    person.hairline = to_hundredths(std::clamp(3 * draw.normal() + 15 * lost, -8.0, 25.0));
+    person.temples = to_hundredths(25 * lost);
+    person.scalp_hair = to_hundredths(0.5 + 0.4 * draw.even());
+}
+
+}  // namespace
+
+std::map<std::string, double> person_shape(const Identity& identity, const DesignTables& tables) {
+    const double age = (identity.age - 40) / 40, late = std::max(0.0, identity.age - 45) / 35;
+    std::map<std::string, double> shape;
+    for (const PopulationParameter& p : tables.population) {
+        double value = p.mean + p.sex * identity.sex + p.age * age + p.late_age * late;
+        for (std::size_t k = 0; k < tables.ancestries.size(); ++k)
+            if (const auto share = identity.ancestry.find(tables.ancestries[k]);
+                share != identity.ancestry.end())
+                value += share->second * p.ancestry[k];
+        if (const auto own = identity.shape.find(p.name); own != identity.shape.end())
+            value += own->second;
+        shape[p.name] = std::clamp(value, kPersonShapeRange.min, kPersonShapeRange.max);
+    }
+    return shape;
+}
+
+Identity random_person(unsigned seed, const PersonChoice& choice, const DesignTables& tables) {
+    constexpr double kYoungest = 20, kOldest = 75;
+    Draw draw(seed);
+    Identity person;
+    person.model = Model::kPopulation;
+    person.name = "seed" + std::to_string(seed);
+    const double sex = draw.even() < 0.5 ? -1 : 1;
+    const double age = std::round(kYoungest + (kOldest - kYoungest) * draw.even());
+    const std::string drawn = draw.one_of(tables.ancestries);
+    const std::string& ancestry = choice.ancestry ? *choice.ancestry : drawn;
+    person.sex = choice.sex.value_or(sex);
+    person.age = choice.age.value_or(age);
+    index_of_name("ancestry", ancestry, tables.ancestries);
+    person.ancestry[ancestry] = 1;
+    const auto normal = [&] { return std::clamp(draw.normal(), -kCut, kCut); };
+    std::vector<double> modes(tables.population.front().modes.size());
+    for (double& mode : modes) mode = normal();
+    for (const PopulationParameter& p : tables.population) {
+        double value = p.own * normal();
+        for (std::size_t m = 0; m < modes.size(); ++m) value += p.modes[m] * modes[m];
+        person.shape[p.name] = to_hundredths(std::clamp(value, -kCut, kCut));
+    }
+    draw_colours(draw, ancestry, person);
+    return person;
+}
+
+}  // namespace risorius::headmodel
