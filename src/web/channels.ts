@@ -34,6 +34,12 @@ interface Row {
   drive: HTMLElement | null;
   activation: HTMLElement | null;
   columns: number[];
+  last: string; ///< what the row shows
+}
+
+function scale(bar: HTMLElement, part: number): void {
+  const text = `scaleX(${part.toFixed(2)})`;
+  if (bar.style.transform !== text) bar.style.transform = text;
 }
 
 const favouritesKey = "risorius favourites";
@@ -51,7 +57,7 @@ export class Channels {
   private readonly list = h("div", { class: "channel-list" });
   private readonly search = h("input", {
     type: "search",
-    placeholder: "Search channels",
+    placeholder: "Search",
     "aria-label": "Search channels",
     oninput: () => this.filter(),
   });
@@ -128,7 +134,7 @@ export class Channels {
           {
             class: "chain",
             "aria-pressed": String(names.length === 1),
-            "aria-label": `${channel.label}: left and right together`,
+            "aria-label": `${names.length === 1 ? "L=R" : "L R"}, ${channel.label}: left and right together`,
             title: "Left and right together",
             onclick: () => {
               if (!this.apart.delete(channel.name)) this.apart.add(channel.name);
@@ -169,7 +175,7 @@ export class Channels {
       "aria-label": `${label}, exact value`,
       onchange: () => this.set(name, clamp(Number(number.value), channel.min, channel.max)),
     });
-    const key = h("button", { class: "key", title: "Make a key at the playhead (K)", "aria-label": `${label}: make a key`, onclick: () => this.actions.key(name) }, "K");
+    const key = h("button", { class: "key", title: "Make a key at the playhead (K)", "aria-label": `K: make a key of ${label}`, onclick: () => this.actions.key(name) }, "K");
     const release = h("button", { class: "release", title: "Let go", "aria-label": `${label}: let go`, onclick: () => this.actions.release(name) }, "×");
     const columns = channel.group === "muscles" ? this.columnsOf(channel, name) : [];
     const meter = (kind: string) => h("span", { class: `bar ${kind}` });
@@ -187,7 +193,7 @@ export class Channels {
       release,
     );
     element.addEventListener("focusin", () => (this.lastName = name));
-    this.rows.push({ channel, name, element, slider, number, key, release, drive, activation, columns });
+    this.rows.push({ channel, name, element, slider, number, key, release, drive, activation, columns, last: "" });
     return element;
   }
 
@@ -257,8 +263,13 @@ export class Channels {
     for (const row of this.rows) {
       const overridden = row.name in this.overrides;
       const value = overridden ? this.overrides[row.name] : this.scripted(row.name);
+      const scripted = this.document !== null && row.name in this.document.curves;
+      // What has not changed need not be painted again.
+      const now = `${value} ${overridden} ${scripted}`;
+      if (now === row.last) continue;
+      row.last = now;
       row.element.classList.toggle("overridden", overridden);
-      row.element.classList.toggle("scripted", this.document !== null && row.name in this.document.curves);
+      row.element.classList.toggle("scripted", scripted);
       row.key.disabled = row.release.disabled = !overridden;
       if (document.activeElement !== row.slider || !overridden) row.slider.value = String(value);
       if (document.activeElement !== row.number) row.number.value = shown(value);
@@ -272,8 +283,8 @@ export class Channels {
       columns.reduce((sum, column) => sum + Math.max(0, values[column]) / 127, 0) / columns.length;
     for (const row of this.rows) {
       if (!row.drive || !row.activation) continue;
-      row.drive.style.transform = `scaleX(${mean(pose.drive, row.columns).toFixed(3)})`;
-      row.activation.style.transform = `scaleX(${mean(pose.activation, row.columns).toFixed(3)})`;
+      scale(row.drive, mean(pose.drive, row.columns));
+      scale(row.activation, mean(pose.activation, row.columns));
     }
   }
 

@@ -4,6 +4,7 @@
 
 import * as THREE from "three";
 
+import { lean } from "./lean.js";
 import type { Muscles, Picture, Pose, Scene } from "./protocol.js";
 
 export type Sight = "skin" | "wire" | "muscles" | "strain";
@@ -75,7 +76,10 @@ export class Head {
   private readonly plain: Record<string, THREE.Material>;
   private readonly strainColours: THREE.Color[];
 
-  constructor(readonly scene: Scene) {
+  constructor(
+    readonly scene: Scene,
+    private readonly isLean: boolean,
+  ) {
     this.positions = scene.rest.slice();
     this.normals = new Float32Array(scene.rest.length);
     this.plain = this.materials();
@@ -89,6 +93,7 @@ export class Head {
       this.parts.push(this.part(s));
     }
     for (const part of this.parts) this.group.add(part.mesh);
+    this.show("skin");
     this.refresh(null);
   }
 
@@ -165,7 +170,7 @@ export class Head {
     texture.offset.set(0, 1);
     texture.wrapS = texture.wrapT = THREE.ClampToEdgeWrapping;
     texture.generateMipmaps = true;
-    texture.minFilter = THREE.LinearMipmapLinearFilter;
+    texture.minFilter = this.isLean ? THREE.LinearMipmapNearestFilter : THREE.LinearMipmapLinearFilter;
     texture.magFilter = THREE.LinearFilter;
     texture.needsUpdate = true;
     const material = this.plain[picture.material] as THREE.MeshStandardMaterial | undefined;
@@ -173,6 +178,7 @@ export class Head {
     material.map = texture;
     material.color.set(0xffffff);
     material.needsUpdate = true;
+    this.show(this.sight);
   }
 
   useMuscles(muscles: Muscles): void {
@@ -218,8 +224,9 @@ export class Head {
           opacity: 0.22,
           depthWrite: false,
         });
-      part.mesh.material = material;
-      part.mesh.visible = !(sight !== "skin" && part.material === "lashes");
+      part.mesh.material = this.isLean && !(material instanceof THREE.MeshBasicMaterial) ? lean(material) : material;
+      const hidden = (part.material === "lashes" && sight !== "skin") || (part.material === "cornea" && this.isLean);
+      part.mesh.visible = !hidden;
     }
     for (const { mesh } of this.muscleMeshes) mesh.visible = sight === "muscles";
   }

@@ -85,8 +85,18 @@ function takeWelcome(message: Welcome): void {
   if (!message.steers) say("Another page steers; this one looks.");
 }
 
+/// Documents may come faster than pictures: the last one is shown.
 function takeDocument(message: DocumentMessage): void {
+  if (!waitingDocument) requestAnimationFrame(showDocument);
+  waitingDocument = true;
   script = message;
+}
+
+let waitingDocument = false;
+
+function showDocument(): void {
+  waitingDocument = false;
+  const message = script!;
   byId("dirty").hidden = !message.dirty;
   byId<HTMLButtonElement>("undo").disabled = !message.undo;
   byId<HTMLButtonElement>("redo").disabled = !message.redo;
@@ -97,21 +107,32 @@ function takeDocument(message: DocumentMessage): void {
   timeline.useState(state ?? emptyState);
 }
 
+let toldLoad = 0;
+
+function write(id: string, text: string): void {
+  const place = byId(id);
+  if (place.textContent !== text) place.textContent = text;
+}
+
 const emptyState = { t_s: 0, computed_s: 0 } as State;
 
 function takeState(message: State): void {
   const started = state === null || state.playing !== message.playing;
   state = message;
-  byId("clock").textContent = `${message.t_s.toFixed(2)} s`;
+  write("clock", `${message.t_s.toFixed(2)} s`);
   if (started) {
     const play = byId("play");
     play.classList.toggle("playing", message.playing);
     play.setAttribute("aria-label", message.playing ? "Pause" : "Play");
   }
-  byId("busy").textContent = message.computing ? `computing ${message.computed_s.toFixed(1)} s` : "";
+  write("busy", message.computing ? `computing ${message.computed_s.toFixed(1)} s` : "");
   const late = message.step_ms > 1000 / 60;
   const connection = byId("connection");
-  connection.textContent = `${message.step_ms.toFixed(1)} ms a step`;
+  // Twice a second is often enough for a number that is read.
+  if (performance.now() - toldLoad > 500) {
+    toldLoad = performance.now();
+    write("connection", `${message.step_ms.toFixed(1)} ms a step`);
+  }
   connection.classList.toggle("late", late);
   channels.useState(message);
   timeline.useState(message);

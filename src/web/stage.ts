@@ -8,6 +8,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { cameras, frame } from "./cameras.js";
 import { byId, h } from "./dom.js";
 import { Head } from "./head.js";
+import { softwareGl } from "./lean.js";
 import type { Sight } from "./head.js";
 import type { HeldPull, Pose, Scene, Vec } from "./protocol.js";
 
@@ -53,7 +54,7 @@ export class Stage {
     private readonly place: HTMLElement,
     private readonly pulls: Pulls,
   ) {
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, powerPreference: "high-performance" });
+    this.renderer = new THREE.WebGLRenderer({ antialias: !softwareGl(), powerPreference: "high-performance" });
     this.renderer.outputColorSpace = THREE.SRGBColorSpace;
     this.renderer.toneMapping = THREE.NeutralToneMapping;
     this.renderer.setClearColor(0x1b1e23);
@@ -92,6 +93,11 @@ export class Stage {
     this.scene.add(this.lamps);
   }
 
+  private setPixels(ratio: number): void {
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(Math.max(1, this.place.clientWidth), Math.max(1, this.place.clientHeight), false);
+  }
+
   private draw(): void {
     this.dirty = false;
     // The light moves with the camera, as in videos.
@@ -105,8 +111,7 @@ export class Stage {
   private resize(): void {
     const width = Math.max(1, this.place.clientWidth);
     const height = Math.max(1, this.place.clientHeight);
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    this.renderer.setSize(width, height, false);
+    this.setPixels(Math.min(window.devicePixelRatio, 2));
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.look(this.lastView);
@@ -114,7 +119,7 @@ export class Stage {
 
   use(scene: Scene): void {
     if (this.head) this.scene.remove(this.head.group);
-    this.head = new Head(scene);
+    this.head = new Head(scene, softwareGl());
     this.scene.add(this.head.group);
     this.grips = [];
     this.look(this.lastView);
@@ -362,6 +367,7 @@ export class Stage {
   private labels: { element: HTMLElement; at: THREE.Vector3 }[] = [];
 
   showPulls(held: HeldPull[]): void {
+    if (held.length === 0 && this.labels.length === 0) return;
     this.arrows.clear();
     for (const { element } of this.labels) element.remove();
     this.labels = [];

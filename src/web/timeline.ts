@@ -24,6 +24,7 @@ interface KeyView {
 }
 
 const rowHeight = 44;
+const margin = 12; ///< px beside the first and the last moment
 const inset = 7; ///< px between a curve and the border of its row
 
 export class Timeline {
@@ -62,7 +63,8 @@ export class Timeline {
     this.value.addEventListener("change", () => this.put(null, Number(this.value.value)));
     this.lanes.append(this.box, this.playhead);
     this.scroller.append(this.names, this.lanes, this.empty);
-    place.append(h("div", { class: "ruler-line" }, h("div", { class: "corner" }), this.ruler), this.scroller, this.inspector);
+    place.append(h("div", { class: "ruler-line" }, h("div", { class: "corner" }), this.ruler), this.scroller);
+    place.querySelector(".transport")!.append(this.inspector);
     this.listen();
     new ResizeObserver(() => this.layout()).observe(this.scroller);
   }
@@ -105,13 +107,13 @@ export class Timeline {
   }
 
   private x(t_s: number): number {
-    return ((t_s - this.from_s) / this.span_s) * this.width;
+    return margin + ((t_s - this.from_s) / this.span_s) * this.width;
   }
   private t(x: number): number {
-    return this.from_s + (x / this.width) * this.span_s;
+    return this.from_s + ((x - margin) / this.width) * this.span_s;
   }
   private get width(): number {
-    return Math.max(1, this.lanes.clientWidth);
+    return Math.max(1, this.lanes.clientWidth - 2 * margin);
   }
 
   private get script(): Script {
@@ -135,7 +137,7 @@ export class Timeline {
           h("button", { class: "remove", title: "Remove the channel from the script", "aria-label": `Remove ${this.label(channel)}`, onclick: () => this.actions.edit([{ path: `/channels/${channel}` }]) }, "×"),
         ),
       );
-      const lane = h("div", { class: "lane", role: "row", "aria-label": this.label(channel), "data-channel": channel });
+      const lane = h("div", { class: "lane", role: "group", "aria-label": this.label(channel), "data-channel": channel });
       lane.append(h("canvas", { "aria-hidden": true }));
       track.keys.forEach((key, index) => lane.append(this.keyButton(channel, index, key)));
       this.lanes.append(lane);
@@ -143,14 +145,14 @@ export class Timeline {
     const events = this.script.events ?? [];
     if (events.length > 0) {
       this.names.append(h("div", { class: "lane-name" }, h("span", {}, "Events")));
-      const lane = h("div", { class: "lane events", role: "row", "aria-label": "Events" });
+      const lane = h("div", { class: "lane events", role: "group", "aria-label": "Events" });
       events.forEach((event, index) => lane.append(this.eventButton(event, index)));
       this.lanes.append(lane);
     }
     const pulls = this.script.pulls ?? [];
     if (pulls.length > 0) {
       this.names.append(h("div", { class: "lane-name" }, h("span", {}, "Pulls")));
-      const lane = h("div", { class: "lane events", role: "row", "aria-label": "Pulls" });
+      const lane = h("div", { class: "lane events", role: "group", "aria-label": "Pulls" });
       pulls.forEach((pull, index) => {
         const [from, to] = [pull.keys_mm[0][0], pull.keys_mm[pull.keys_mm.length - 1][0]];
         const text = `vertex ${pull.vertex}`;
@@ -167,7 +169,6 @@ export class Timeline {
   private keyButton(channel: string, index: number, key: Key): HTMLButtonElement {
     const element = h("button", {
       class: "key-dot",
-      role: "gridcell",
       "data-key": `${channel} ${index}`,
       "aria-label": `${this.label(channel)}, key at ${shown(key[0], 3)} s, value ${shown(key[1], 3)}`,
     });
@@ -188,7 +189,7 @@ export class Timeline {
   }
 
   private block(text: string, label: string, from_s: number, to_s: number, kind: string, path: string, event: ScriptEvent | null): HTMLElement {
-    const element = h("button", { class: `block ${kind}`, role: "gridcell", "data-from": from_s, "data-to": to_s, "data-key": path, "aria-label": label, title: text }, text);
+    const element = h("button", { class: `block ${kind}`, "data-from": from_s, "data-to": to_s, "data-key": path, "aria-label": label, title: text }, text);
     const move = (start: number, gesture?: string) => {
       if (event) this.actions.edit([{ path: `${path}/start_s`, value: this.snapped(clamp(start, 0, this.document!.duration_s)) }], gesture);
     };
@@ -250,7 +251,8 @@ export class Timeline {
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
     canvas.width = Math.round(width * ratio);
     canvas.height = Math.round(height * ratio);
-    const context = canvas.getContext("2d")!;
+    // Small pictures that are drawn anew all the time: the processor is quicker than the way to the graphics processor.
+    const context = canvas.getContext("2d", { willReadFrequently: true })!;
     context.scale(ratio, ratio);
     return context;
   }
@@ -296,7 +298,7 @@ export class Timeline {
       context.fillStyle = "#b3bac4";
       const text = `${shown(i * step)} s`;
       const wide = context.measureText(text).width;
-      context.fillText(text, clamp(x + 4, 0, this.width - wide - 2), 4);
+      context.fillText(text, clamp(x + 4, 0, this.ruler.clientWidth - wide - 2), 4);
     }
   }
 
@@ -323,7 +325,7 @@ export class Timeline {
 
   private showSelection(): void {
     for (const { channel, index, element } of this.keys)
-      element.setAttribute("aria-selected", String(this.selected.has(`${channel} ${index}`)));
+      element.setAttribute("aria-pressed", String(this.selected.has(`${channel} ${index}`)));
     const one = this.selected.size === 1 ? this.keyNamed([...this.selected][0]) : null;
     this.inspector.hidden = this.selected.size === 0;
     this.time.disabled = this.value.disabled = one === null;

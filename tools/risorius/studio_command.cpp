@@ -9,6 +9,7 @@
 
 #include "risorius/core/data_folder.h"
 #include "risorius/core/error.h"
+#include "risorius/face/quality.h"
 #include "risorius/serve/request_checks.h"
 #include "tools/risorius/commands.h"
 #include "tools/risorius/stop_signals.h"
@@ -60,6 +61,7 @@ void open_browser(const std::string& url) {
 
 void run_studio(const StudioArguments& arguments) {
     check_kind(arguments.file);
+    (void)face::quality_named(arguments.quality);
     serve::WebServer server(serve::read_page(page_folder().string()), arguments.port);
     Studio studio(arguments.file, arguments.quality);
     if (arguments.common.json)

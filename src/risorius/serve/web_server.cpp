@@ -47,9 +47,11 @@ struct WebServer::Impl {
     const Handler* handler = nullptr;
     std::function<bool()> stopped;
     int peers = 0;
+    bool told = false;  ///< a message has come since it was asked last
 
     void accept();
     void tick(Clock::time_point due);
+    void step(Clock::time_point due, int messages);
 };
 
 namespace {
@@ -125,6 +127,7 @@ class Socket : public Peer, public std::enable_shared_from_this<Socket> {
     }
 
     void take(const std::string& text) {
+        server_.told = true;
         if (known_) {
             server_.handler->text(*this, text);
             return;
@@ -276,15 +279,24 @@ void WebServer::Impl::accept() {
 void WebServer::Impl::tick(Clock::time_point due) {
     timer.expires_at(due);
     timer.async_wait([this, due](Code failed) {
-        if (failed) return;
-        if (stopped()) {
-            context.stop();
-            return;
-        }
-        handler->tick();
-        // What a slow step has missed is not made up for.
-        tick(std::max(due + kTick, Clock::now() - 2 * kTick));
+        if (!failed) step(due, 0);
     });
+}
+
+// Messages that wait go before a step, which may take longer than they; but not for ever.
+void WebServer::Impl::step(Clock::time_point due, int messages) {
+    constexpr int kMostMessages = 100;
+    if (std::exchange(told, false) && messages < kMostMessages) {
+        asio::post(context, [this, due, messages] { step(due, messages + 1); });
+        return;
+    }
+    if (stopped()) {
+        context.stop();
+        return;
+    }
+    handler->tick();
+    // What a slow step has missed is not made up for.
+    tick(std::max(due + kTick, Clock::now() - 2 * kTick));
 }
 
 WebServer::WebServer(Page page, int port, const ServerLimits& limits)

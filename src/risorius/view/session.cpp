@@ -355,7 +355,7 @@ bool Session::tick_playing() {
         const double shift_s = time_s() - face_->time_s() - face_->step_s();
         face_->step([&](double t_s) { return live_drive(std::max(0.0, t_s + shift_s)); });
         face_frame_ = -1;
-        show(face_->pose(), time_s(), live_drive(time_s()));
+        unseen_ = Unseen{time_s(), live_drive(time_s())};
         return true;
     }
     if (!compute_until(next)) return false;
@@ -400,13 +400,13 @@ bool Session::tick_live() {
     const track::Drive drive = live_drive(t_s);
     face_->step([&](double) { return drive; });
     face_frame_ = -1;
-    show(face_->pose(), t_s, drive);
-    if (!shown_.vertices.allFinite()) {
+    unseen_ = Unseen{t_s, drive};
+    constexpr double kStill_m = 2e-6;  // far less than one unit of a pose
+    const Points nodes = face_->diagnostics().skin_nodes();
+    if (!nodes.allFinite()) {
         recover();
         return true;
     }
-    constexpr double kStill_m = 2e-6;  // far less than one unit of a pose
-    const Points nodes = face_->diagnostics().skin_nodes();
     const bool still = last_nodes_.rows() == nodes.rows() &&
                        (nodes - last_nodes_).cwiseAbs().maxCoeff() < kStill_m;
     last_nodes_ = nodes;
@@ -435,6 +435,7 @@ void Session::restart_face() {
 }
 
 void Session::show(const face::FacePose& pose, double t_s, const track::Drive& drive) {
+    unseen_.reset();
     shown_.t_s = t_s;
     shown_.head = pose.head;
     shown_.vertices = drawn_.of(pose.vertices);
@@ -442,16 +443,19 @@ void Session::show(const face::FacePose& pose, double t_s, const track::Drive& d
     shown_.activation = face_->activation();
     shown_.muscles.resize(0, 3);
     if (with_muscles_) shown_.muscles = face_->surfaces().muscle_vertices_at(face_->time_s());
-    shown_drive_ = drive;
 }
 
 void Session::show_taken(long frame) {
     if (!take_.has(frame)) return;  // no room: it is what has been computed last
+    unseen_.reset();
     shown_ = decode_pose(take_.at(frame), unit_m_);
-    shown_drive_ = timeline_->at(static_cast<double>(frame) / 60);
 }
 
-std::string Session::pose() const {
+std::string Session::pose() {
+    if (unseen_) {
+        const Unseen now = *unseen_;
+        show(face_->pose(), now.t_s, now.drive);
+    }
     PoseFrame frame = shown_;
     frame.step = static_cast<std::uint32_t>(ticks_);
     if (with_strain_)

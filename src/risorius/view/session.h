@@ -62,8 +62,8 @@ class Session {
     bool tick();
     /// Messages that steps have caused, such as the end of the script.
     std::vector<std::string> events() { return std::exchange(events_, {}); }
-    /// The last pose (detail/pose_frame.h), and what a person may want to know about it as JSON.
-    std::string pose() const;
+    /// The last pose (detail/pose_frame.h), and what a person may want to know about it as JSON. What nobody sees is not computed.
+    std::string pose();
     std::string state() const;
 
     /// The text of the script's file. `saved` says that it has been written.
@@ -150,8 +150,11 @@ class Session {
     bool with_strain_ = false, with_muscles_ = false;
     std::string selected_;
     PoseFrame shown_;
-    track::Drive shown_drive_;
-    Rigid shown_head_ = Rigid::Identity();
+    struct Unseen {
+        double t_s;
+        track::Drive drive;
+    };
+    std::optional<Unseen> unseen_;  // a step whose pose has not been computed yet
 
     long ticks_ = 0;
     std::vector<std::pair<long, std::string>> log_;
