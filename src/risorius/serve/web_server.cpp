@@ -67,6 +67,8 @@ class Socket : public Peer, public std::enable_shared_from_this<Socket> {
         ++server_.peers;
         if (server_.peers > server_.limits.peers) return;
         stream_.read_message_max(server_.limits.text_bytes);
+        // In one piece: between pieces of 4 kB, 40 a pose, a step might come each time.
+        stream_.auto_fragment(false);
         stream_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
         websocket::permessage_deflate no_compression;
         stream_.set_option(no_compression);
