@@ -44,6 +44,7 @@ struct IdentityChoice {
     std::optional<double> sex{}, age{};
     std::vector<std::string> shape{};  ///< "lips=1.2"
     std::optional<std::string> skin{}, iris{}, hair{};
+    std::optional<std::string> hair_style{}, hairline_form{};
 };
 /// Returns the identity. Throws Error that names the option.
 headmodel::Identity chosen_identity(const IdentityChoice& choice);
