@@ -90,7 +90,7 @@ class Creases {
                    ridge = (1.18 * skin_).cwiseMin(1.0);
         ribbon(line, 2.6 * width_m, Vec3::Zero(), shade, 0.45 * strength);
         ribbon(line, 1.1 * width_m, Vec3(0, -1.9 * width_m, 0), ridge, 0.40 * strength);
-        ribbon(line, 0.7 * width_m, Vec3::Zero(), valley, 0.75 * strength);
+        ribbon(line, 0.7 * width_m, Vec3::Zero(), valley, 0.58 * strength);
     }
     static std::vector<Vec3> bow(const Vec3& from, const Vec3& to, const Vec3& out) {
         std::vector<Vec3> line;
@@ -110,7 +110,7 @@ class Creases {
         for (int row = 0; row < rows; ++row) {
             const double at = 0.22 + 0.62 * (row + even(-0.15, 0.15)) / rows;
             const Vec3 middle = *g + at * (*tr - *g);
-            const double half = std::abs(temple->x()) * even(0.62, 0.86), phase = even(0, 6.3),
+            const double half = std::abs(temple->x()) * even(0.78, 1.05), phase = even(0, 6.3),
                          shift = even(-0.006, 0.006), gap = even(0, 1);
             // Two halves that may not meet over the root of the nose
             for (const double side : {-1.0, 1.0}) {

@@ -159,6 +159,8 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
     else
         along += 0.35 * stray * aside;
     Vec3 v = (along + style_.lift * d).normalized();
+    // Hair that hangs is free from the top of the ears downwards.
+    const double loose_m = centre.y() + (style_.hangs ? 0.045 : 0.0);
     std::vector<Vec3> way{p};
     for (double passed = 0; passed < length; passed += kStep_m) {
         const Vec3 out = (p - centre).normalized();
@@ -166,7 +168,7 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
         if (style_.hangs && p.y() < cut) break;
         if (!style_.over_ears && head_.is_ear(out) && passed > 0.006) break;
         if (!tuft) {
-            const bool free = p.y() < centre.y() + 0.02 && style_.hangs;
+            const bool free = p.y() < loose_m && style_.hangs;
             const Vec3 onward = free ? Vec3(0.12 * v.x(), -1, 0.12 * v.z()) : flow(p);
             v = (0.80 * v + 0.20 * onward + style_.fall * kStep_m / 0.03 * Vec3(0, -0.22, 0))
                     .normalized();
@@ -176,7 +178,7 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
         const Vec3 now = (p - centre).normalized();
         const double rise = tuft ? 1 : ramp(0, 0.022, passed + kStep_m);
         const double skin = skin_m(now), least = skin + kAboveSkin_m + (cap_m(now) + layer) * rise,
-                     most = least + loft + (p.y() < centre.y() ? 0.05 : 0.0);
+                     most = least + loft + (p.y() < loose_m ? 0.05 : 0.0);
         const double r = (p - centre).norm();
         const double kept = skin > 0 ? std::clamp(r, least, most) : r;
         p = centre + kept * now;
