@@ -6,6 +6,7 @@
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
 #include "risorius/headmodel/sculpt_head.h"
+#include "risorius/render/hair_styles.h"
 #include "tools/risorius/commands.h"
 
 namespace risorius::cli {
@@ -133,6 +134,10 @@ void add_head(CLI::App& app) {
     command->add_option("--skin", choice.skin, "Tone of the skin; the names are below");
     command->add_option("--iris", choice.iris, "Colour of the eyes; the names are below");
     command->add_option("--hair", choice.hair, "Colour of brows and hair; the names are below");
+    command->add_option("--hair-style", choice.hair_style,
+                        "Style of the hair:" + listed(render::hair_style_names()));
+    command->add_option("--hairline-form", choice.hairline_form,
+                        "Form of the hairline:" + listed(render::hairline_form_names()));
     command
         ->add_option("--texture", arguments->options.texture_px,
                      "Also write textures for other programs: skin.png with this width and height "

@@ -54,6 +54,7 @@ Json appearance_json(const headmodel::Identity& identity, const headmodel::Desig
     out["hairline_mm"] = identity.hairline;
     out["temples_mm"] = identity.temples;
     out["beard"] = identity.beard;
+    write_identity_hair(identity.hairdo, out);
     out["age"] = std::clamp((identity.age - kYoung) / (kOld - kYoung), 0.0, 1.0);
     return out;
 }
@@ -173,6 +174,8 @@ headmodel::Identity chosen_identity(const IdentityChoice& choice) {
     identity.skin = choice.skin.value_or(identity.skin);
     identity.iris = choice.iris.value_or(identity.iris);
     identity.hair = choice.hair.value_or(identity.hair);
+    identity.hairdo.style = choice.hair_style.value_or(identity.hairdo.style);
+    identity.hairdo.hairline_form = choice.hairline_form.value_or(identity.hairdo.hairline_form);
     headmodel::check_identity(identity, tables, option_name);
     if (choice.seed)
         headmodel::deform_within_spread(headmodel::make_head(tables), tables, identity);

@@ -51,6 +51,7 @@ struct IdentityChoice {
     std::vector<std::string> morph{};       ///< two names or files, and the share of the second
     std::vector<std::string> average{};     ///< names or files
     std::optional<double> exaggerate{};     ///< factor of what distinguishes the person
+    std::optional<std::string> hair_style{}, hairline_form{};
 };
 /// Returns the identity. Throws Error that names the option.
 headmodel::Identity chosen_identity(const IdentityChoice& choice);

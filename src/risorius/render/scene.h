@@ -73,6 +73,7 @@ struct Appearance {
     /// A name of hair_style_names(): locks over the scalp; "shaven" has none
     std::string hair_style = "shaven";
     std::string hairline_form = "even";  ///< a name of hairline_form_names()
+    double age_lines = 0.0;              ///< 0..1, strength of the lines that come with age
     double grey_hair = 0.0;              ///< 0..1, share of white hairs beyond what comes with age
 };
 

@@ -100,6 +100,7 @@ void visit_fields(AppearanceDescription& appearance, Visit visit) {
     visit("hair_style", appearance.hair_style, kHairStyles);
     visit("hairline_form", appearance.hairline_form, kHairlines);
     visit("grey_hair", appearance.grey_hair, Range{0, 1});
+    visit("age_lines", appearance.age_lines, Range{0, 1});
 }
 
 struct FieldReader {

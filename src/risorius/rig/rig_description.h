@@ -120,8 +120,9 @@ struct AppearanceDescription {
     double beard_length_mm = 0.0;
     double age = 0.0;
     int seed = 1;
-    std::string hair_style = "shaven", hairline_form = "even";  ///< names as in render/hair_styles.h
-    double grey_hair = 0.0;
+    std::string hair_style = "shaven",
+                hairline_form = "even";  ///< names as in render/hair_styles.h
+    double grey_hair = 0.0, age_lines = 0.0;
 };
 
 /// What `fit` found for an action unit on this head, so that it moves as far and as evenly as facs.json asks.

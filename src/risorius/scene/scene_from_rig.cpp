@@ -190,6 +190,7 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
                         .seed = static_cast<unsigned>(rig.appearance.seed),
                         .hair_style = rig.appearance.hair_style,
                         .hairline_form = rig.appearance.hairline_form,
+                        .age_lines = rig.appearance.age_lines,
                         .grey_hair = rig.appearance.grey_hair};
     return scene;
 }

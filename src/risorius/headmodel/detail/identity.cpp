@@ -49,6 +49,7 @@ void check_identity(const Identity& identity, const DesignTables& tables, const 
     check_range(place("hairline"), identity.hairline, kHairRange);
     check_range(place("temples"), identity.temples, kHairRange);
     check_range(place("beard"), identity.beard, {0, 1});
+    check_identity_hair(identity.hairdo, place);
     const auto names = shape_parameters(tables, identity.model);
     const bool person = identity.model == Model::kPopulation;
     for (const auto& [parameter, value] : identity.shape) {
@@ -73,8 +74,11 @@ void check_identity(const Identity& identity, const DesignTables& tables, const 
 
 Identity read_identity(const std::filesystem::path& file, const DesignTables& tables) {
     const JsonCursor json = JsonCursor::read_file(file);
-    json.allow_keys({"format", "version", "name", "model", "ancestry", "sex", "age", "shape", "skin", "iris", "hair",
-                     "freckles", "scalp_hair", "hairline", "temples", "beard"});
+    std::vector<std::string_view> keys{
+        "format", "version", "name", "model",    "ancestry",   "sex",      "age",     "shape",
+        "skin",   "iris",    "hair", "freckles", "scalp_hair", "hairline", "temples", "beard"};
+    keys.insert(keys.end(), identity_hair_keys().begin(), identity_hair_keys().end());
+    json.allow_keys(keys);
     json.at("format").one_of({"risorius-identity"});
     json.at("version").integer(1, 1);
     Identity identity;
@@ -101,6 +105,7 @@ Identity read_identity(const std::filesystem::path& file, const DesignTables& ta
     word("skin", identity.skin);
     word("iris", identity.iris);
     word("hair", identity.hair);
+    identity.hairdo = read_identity_hair(json);
     check_identity(identity, tables,
                    [&](const std::string& key) { return file.string() + ":/" + key; });
     return identity;
@@ -128,6 +133,7 @@ Json identity_json(const Identity& identity) {
     json["hairline"] = identity.hairline;
     json["temples"] = identity.temples;
     json["beard"] = identity.beard;
+    write_identity_hair(identity.hairdo, json);
     return json;
 }
 

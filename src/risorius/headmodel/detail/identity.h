@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
+#include "risorius/headmodel/detail/identity_hair.h"
 #include "risorius/headmodel/detail/tables.h"
 
 namespace risorius::headmodel {
@@ -39,6 +40,7 @@ struct Identity {
     double hairline = 0;  ///< mm: how much higher than average the hair begins on the forehead
     double temples = 0;   ///< mm: how much farther it recedes at the temples
     double beard = 0;
+    IdentityHair hairdo;
 };
 
 /// Returns the names of the parameters of the table except sex and age, in its order.

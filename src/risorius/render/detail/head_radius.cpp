@@ -117,7 +117,8 @@ double HeadRadius::radius_m(const Vec3& direction, bool ears) const {
     const CubePlace place = cube_place(direction);
     const double u = std::clamp(0.5 * (place.u + 1) * kSide - 0.5, 0.0, kSide - 1.0),
                  v = std::clamp(0.5 * (place.v + 1) * kSide - 0.5, 0.0, kSide - 1.0);
-    const int x = std::min(static_cast<int>(u), kSide - 2), y = std::min(static_cast<int>(v), kSide - 2);
+    const int x = std::min(static_cast<int>(u), kSide - 2),
+              y = std::min(static_cast<int>(v), kSide - 2);
     const double s = u - x, t = v - y;
     const auto at = [&](int i, int j) {
         const Cell& there = cells_[index(place.face, x + i, y + j)];

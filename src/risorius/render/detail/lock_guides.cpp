@@ -12,7 +12,7 @@ namespace risorius::render {
 namespace {
 
 constexpr double kHairMapPerMetre = 2.5;  ///< of the paint map, for a head of 0.1 m radius
-constexpr double kStep_m = 0.004;      ///< along a guide before it is resampled
+constexpr double kStep_m = 0.004;         ///< along a guide before it is resampled
 constexpr double kAboveSkin_m = 0.0008;
 constexpr double kNape_m = -0.055;  ///< the lowest hair, from the height of the tragia
 
@@ -55,7 +55,8 @@ bool LockGround::grows(const Vec3& direction, double inside_m) const {
 double LockGround::cap_m(const Vec3& direction) const {
     const Vec3 at = head_.centre() + head_.radius_m(direction, false) * direction;
     const Vec2 place = paint_place(at, head_.centre());
-    const double inside = ((place - Vec2(0.5, 0.5)).norm() - hairline_radius(plan_, place)) / kHairMapPerMetre;
+    const double inside =
+        ((place - Vec2(0.5, 0.5)).norm() - hairline_radius(plan_, place)) / kHairMapPerMetre;
     const double thick = 1e-3 * style_.cap_mm;
     return thick * ramp(-0.002, 0.010 + 0.8 * thick, inside);
 }
@@ -65,13 +66,16 @@ double LockGround::skin_m(const Vec3& d) const {
     constexpr double kBelow = -0.25, kNeck_m = 0.115;
     double radius = head_.radius_m(d, style_.over_ears);
     if (style_.over_ears)  // comes off the head above an ear, and does not fall in at once below it
-        for (const double up : {-0.30, -0.15, 0.15, 0.30})
-            radius = std::max(radius, head_.radius_m(Vec3(d + up * Vec3::UnitY()).normalized(), true) - 0.03 * std::abs(up));
+        for (const double up : {-0.45, -0.30, -0.15, 0.15, 0.30, 0.45})
+            radius =
+                std::max(radius, head_.radius_m(Vec3(d + up * Vec3::UnitY()).normalized(), true) -
+                                     0.018 * std::abs(up));
     return d.y() < kBelow && radius > kNeck_m ? 0 : radius;
 }
 
 double LockGround::length_m(const Vec3& d) const {
-    const double top = ramp(0.50, 0.78, d.y() - 0.1 * d.z()), side = d.x() * d.x() / std::max(d.x() * d.x() + d.z() * d.z(), 1e-9);
+    const double top = ramp(0.50, 0.78, d.y() - 0.1 * d.z()),
+                 side = d.x() * d.x() / std::max(d.x() * d.x() + d.z() * d.z(), 1e-9);
     return 1e-3 * (top * style_.top_mm +
                    (1 - top) * (side * style_.side_mm + (1 - side) * style_.back_mm));
 }
@@ -86,7 +90,8 @@ Vec3 LockGround::flow(const Vec3& at) const {
         case HairFlow::kParting: {
             const double side = from.x() < parting_m_ ? -1 : 1;
             const double behind = ramp(-0.01, -0.07, from.z());
-            way = Vec3(side * (1 - 0.75 * behind), -0.25 - 0.9 * behind, style_.hangs ? -0.10 : 0.25);
+            way =
+                Vec3(side * (1 - 0.75 * behind), -0.25 - 0.9 * behind, style_.hangs ? -0.10 : 0.25);
             break;
         }
         case HairFlow::kRadial:
@@ -110,14 +115,15 @@ void LockGround::finish(std::vector<Vec3> way, const Vec3& across, double phase,
     const double curl = 1e-3 * style_.curl_mm, pitch = 1e-3 * style_.pitch_mm;
     double passed = 0;
     std::size_t i = 1;
-    for (int k = 0; k <= style_.segments; ++k) {
-        const double want = whole * k / style_.segments;
+    for (int k = 0; k <= guide.segments; ++k) {
+        const double want = whole * k / guide.segments;
         while (i + 1 < way.size() && passed + (way[i] - way[i - 1]).norm() < want) {
             passed += (way[i] - way[i - 1]).norm();
             ++i;
         }
         const Vec3 span = way[i] - way[i - 1];
-        Vec3 p = way[i - 1] + std::clamp((want - passed) / std::max(span.norm(), 1e-9), 0.0, 1.0) * span;
+        Vec3 p =
+            way[i - 1] + std::clamp((want - passed) / std::max(span.norm(), 1e-9), 0.0, 1.0) * span;
         const Vec3 out = (p - head_.centre()).normalized();
         const double grown = ramp(0, 0.3, want / std::max(whole, 1e-9));
         const double turn = phase + 2 * std::numbers::pi * want / pitch;
@@ -129,6 +135,7 @@ void LockGround::finish(std::vector<Vec3> way, const Vec3& across, double phase,
 
 LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longest_m) const {
     LockGuide guide;
+    guide.segments = longest_m < 0.1 ? 2 : style_.segments;
     guide.root = *head_.skin_at(d);
     guide.layer = random.next();
     guide.edge = !grows(d, 0.010);
@@ -145,12 +152,15 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
     // Tufts lie in any direction; other locks follow the flow, and stray a little.
     Vec3 along = flow(p);
     const Vec3 aside = along.cross(d);
-    if (tuft && guide.edge) along = across_plane(whorl_ - d, d).normalized() + 0.9 * stray * aside;
+    if (tuft && guide.edge)
+        along = across_plane(whorl_ - d, d).normalized() + 0.9 * stray * aside;
     else if (tuft)
         along = std::cos(turn) * along + std::sin(turn) * aside;
     else
         along += 0.35 * stray * aside;
     Vec3 v = (along + style_.lift * d).normalized();
+    // Hair that hangs is free from the top of the ears downwards.
+    const double loose_m = centre.y() + (style_.hangs ? 0.045 : 0.0);
     std::vector<Vec3> way{p};
     for (double passed = 0; passed < length; passed += kStep_m) {
         const Vec3 out = (p - centre).normalized();
@@ -158,17 +168,17 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
         if (style_.hangs && p.y() < cut) break;
         if (!style_.over_ears && head_.is_ear(out) && passed > 0.006) break;
         if (!tuft) {
-            const bool free = p.y() < centre.y() + 0.02 && style_.hangs;
+            const bool free = p.y() < loose_m && style_.hangs;
             const Vec3 onward = free ? Vec3(0.12 * v.x(), -1, 0.12 * v.z()) : flow(p);
-            v = (0.80 * v + 0.20 * onward + style_.fall * kStep_m / 0.03 * Vec3(0, -0.22, 0)).normalized();
+            v = (0.80 * v + 0.20 * onward + style_.fall * kStep_m / 0.03 * Vec3(0, -0.22, 0))
+                    .normalized();
         }
         p += kStep_m * v;
         // Off the head, and not far from the hull
         const Vec3 now = (p - centre).normalized();
         const double rise = tuft ? 1 : ramp(0, 0.022, passed + kStep_m);
-        const double skin = skin_m(now),
-                     least = skin + kAboveSkin_m + (cap_m(now) + layer) * rise,
-                     most = least + loft + (p.y() < centre.y() ? 0.05 : 0.0);
+        const double skin = skin_m(now), least = skin + kAboveSkin_m + (cap_m(now) + layer) * rise,
+                     most = least + loft + (p.y() < loose_m ? 0.05 : 0.0);
         const double r = (p - centre).norm();
         const double kept = skin > 0 ? std::clamp(r, least, most) : r;
         p = centre + kept * now;
@@ -182,18 +192,19 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
 }
 
 void LockGround::add_hairline(RandomSequence& random, std::vector<LockGuide>& guides) const {
-    constexpr int kDirections = 5200;
+    constexpr int kDirections = 3400;
     constexpr double kLongest_m = 0.014;
     const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
     for (int i = 0; i < kDirections; ++i) {
         const double y = 1 - 2 * (i + 0.5) / kDirections, ring = std::sqrt(1 - y * y);
         Vec3 d(ring * std::cos(golden * i), y, ring * std::sin(golden * i));
-        const double ragged = 0.003 * (random.next() - 0.5);
+        const double ragged = 0.0005 + 0.003 * random.next();
         if (!grows(d, ragged) || grows(d, 0.006)) continue;
         LockGuide one = guide(d, random, kLongest_m);
         if (one.points.empty()) continue;
         one.width = 1.1 / style_.width_mm;
         one.layer = 0.5;
+        one.single = true;
         guides.push_back(std::move(one));
     }
 }
@@ -206,10 +217,12 @@ void LockGround::add_tail(RandomSequence& random, std::vector<LockGuide>& guides
     if (!root) return;
     for (int i = 0; i < kLocks; ++i) {
         LockGuide guide;
+        guide.segments = style_.segments;
         guide.root = *root;
         guide.hangs = true;
         const double turn = 2 * std::numbers::pi * (i + 0.5 * random.next()) / kLocks,
-                     inner = std::sqrt(random.next()), length = kLength_m * (0.8 + 0.3 * random.next());
+                     inner = std::sqrt(random.next()),
+                     length = kLength_m * (0.8 + 0.3 * random.next());
         guide.layer = inner;
         guide.width = 0.8;
         const Vec3 aside = 0.009 * inner * Vec3(std::cos(turn), std::sin(turn), 0);
@@ -248,7 +261,7 @@ std::vector<LockGuide> LockGround::guides(unsigned seed) const {
         Vec3 d(ring * std::cos(golden * i), y, ring * std::sin(golden * i));
         for (int k = 0; k < 3; ++k) d[k] += reach * (random.next() - 0.5);
         d.normalize();
-        const double ragged = 0.004 * (random.next() - 0.5);
+        const double ragged = 0.004 * random.next();
         if (!grows(d, ragged)) continue;
         LockGuide one = guide(d, random, 1);
         if (one.points.empty()) continue;

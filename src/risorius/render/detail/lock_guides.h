@@ -19,8 +19,10 @@ struct LockGuide {
     double layer = 0;               ///< 0 innermost .. 1 outermost
     double width = 1;               ///< factor of the style's
     double grey = 0;                ///< added share of white hairs
-    bool edge = false;              ///< grows at the hairline
-    bool hangs = false;             ///< some of it is far from the head
+    int segments = 4;
+    bool edge = false;    ///< grows at the hairline
+    bool single = false;  ///< one of the single hairs at the hairline
+    bool hangs = false;   ///< some of it is far from the head
 };
 
 /// The head of a scene with a style: where its hair grows, and the hull that it lies on.

@@ -2,6 +2,7 @@
 #include "risorius/render/detail/lock_layer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "risorius/core/counter_rng.h"
@@ -91,17 +92,41 @@ void LockLayer::upload(const Pose& pose) {
 }
 
 void LockLayer::choose(const PosedHair& posed) {
-    chosen_.clear();
-    for (const HairPiece& piece : hair_.pieces) {
-        bool seen = !piece.turns_away;
-        for (std::size_t i = piece.first_vertex; !seen && i < piece.first_vertex + piece.vertices;
-             i += 1) {
-            const Vec3 to = camera_ - posed.positions.row(static_cast<Eigen::Index>(i)).transpose();
-            seen = (posed.turned * hair_.vertices[i].out).dot(to) > kTurnedAway * to.norm();
+    // A vertex is left out where its outside faces away; where hair hangs free, if the head is in front of it.
+    struct Ball {
+        Vec3 centre;
+        double radius_m;
+    };
+    const std::array<Ball, 2> balls{Ball{posed.in_head(Vec3(0, 0.045, 0)), 0.066},
+                                    Ball{posed.in_head(Vec3(0, -0.045, 0.005)), 0.050}};
+    const auto behind_head = [&](const Vec3& p) {
+        for (const Ball& ball : balls) {
+            const Vec3 way = (p - camera_).normalized();
+            const double along = way.dot(ball.centre - camera_);
+            if (along < (p - camera_).norm() &&
+                (camera_ + along * way - ball.centre).norm() < ball.radius_m)
+                return true;
         }
-        if (!seen) continue;
-        const auto first = hair_.triangles.begin() + static_cast<std::ptrdiff_t>(piece.first_index);
-        chosen_.insert(chosen_.end(), first, first + static_cast<std::ptrdiff_t>(piece.indices));
+        return false;
+    };
+    chosen_.clear();
+    std::vector<bool> seen;
+    for (const HairPiece& piece : hair_.pieces) {
+        seen.assign(piece.vertices, true);
+        for (std::size_t i = 0; i < piece.vertices; ++i) {
+            const std::size_t v = piece.first_vertex + i;
+            const Vec3 p = posed.positions.row(static_cast<Eigen::Index>(v)).transpose(),
+                       to = camera_ - p;
+            const bool away =
+                (posed.turned * hair_.vertices[v].out).dot(to) < kTurnedAway * to.norm();
+            seen[i] = !away || (!piece.turns_away && !behind_head(p));
+        }
+        for (std::size_t i = 0; i < piece.indices; i += 3) {
+            const unsigned* corner = hair_.triangles.data() + piece.first_index + i;
+            if (seen[corner[0] - piece.first_vertex] || seen[corner[1] - piece.first_vertex] ||
+                seen[corner[2] - piece.first_vertex])
+                chosen_.insert(chosen_.end(), corner, corner + 3);
+        }
     }
 }
 

@@ -18,8 +18,8 @@ class LockLayer {
   public:
     /// `constants`: those of Lights. `layer`: it is drawn into a skin layer (skin_layer.h) and looked up there. The context must
     /// be current.
-    LockLayer(const Scene& scene, Hair hair, const Camera& camera,
-              const ShaderConstants& constants, bool layer);
+    LockLayer(const Scene& scene, Hair hair, const Camera& camera, const ShaderConstants& constants,
+              bool layer);
     ~LockLayer();
     LockLayer(const LockLayer&) = delete;
     LockLayer& operator=(const LockLayer&) = delete;

@@ -35,8 +35,9 @@ struct LockChance {
 void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
               const LockChance& chance, Hair& hair) {
     const std::size_t rows = guide.points.size(), columns = static_cast<std::size_t>(style.across);
-    HairPiece piece{hair.triangles.size(), 0, hair.vertices.size(), columns * rows, columns,
-                    !guide.hangs};
+    HairPiece piece{hair.triangles.size(), 0,       hair.vertices.size(),
+                    columns * rows,        columns, !guide.hangs,
+                    !guide.single};
     const double half = 0.5e-3 * style.width_mm * guide.width * (0.75 + 0.5 * chance.tone);
     double along_m = kStrandsAlong_m * chance.along;
     hair.roots.push_back(guide.root);
@@ -53,7 +54,8 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
         const double lit =
             (root_lit + (1 - root_lit) * soft_step(0, 0.4, s)) * (0.60 + 0.40 * guide.layer);
         for (std::size_t column = 0; column < columns; ++column) {
-            const double at = 2.0 * static_cast<double>(column) / static_cast<double>(columns - 1) - 1;
+            const double at =
+                2.0 * static_cast<double>(column) / static_cast<double>(columns - 1) - 1;
             HairVertex v;
             v.root = hair.roots.size() - 1;
             v.offset = guide.points[i] + at * width * side +
@@ -79,7 +81,7 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
 }
 
 /// Rows of the cap from the whorl outwards, columns around it.
-constexpr int kCapRows = 14, kCapColumns = 72;
+constexpr int kCapRows = 10, kCapColumns = 54;
 
 /// Marks the skin inside the border of the cap, which reaches so far from the whorl in each column, rad.
 void cover_skin(const LockGround& ground, const Scene& scene, const Vec3& ahead, const Vec3& right,
@@ -115,7 +117,9 @@ void add_cap(const LockGround& ground, const LockStyle& style, const Scene& scen
         const double turn = 2 * std::numbers::pi * column / kCapColumns;
         const Vec3 aside = std::cos(turn) * ahead + std::sin(turn) * right;
         double reach = 0;
-        const auto towards = [&](double angle) { return Vec3(std::cos(angle) * pole + std::sin(angle) * aside); };
+        const auto towards = [&](double angle) {
+            return Vec3(std::cos(angle) * pole + std::sin(angle) * aside);
+        };
         while (reach < 2.6 && ground.grows(towards(reach + kTurn), kInside_m)) reach += kTurn;
         reaches.push_back(reach);
         for (int row = 0; row <= kCapRows; ++row) {
@@ -126,12 +130,15 @@ void add_cap(const LockGround& ground, const LockStyle& style, const Scene& scen
             v.root = hair.roots.size();
             hair.roots.push_back(*place);
             const double edge = soft_step(1.0, 0.8, static_cast<double>(row) / kCapRows);
-            const Vec3 at = centre + (ground.head().radius_m(d, false) + 0.0004 + ground.cap_m(d) * (0.3 + 0.7 * edge)) * d;
+            const Vec3 at = centre + (ground.head().radius_m(d, false) + 0.0004 +
+                                      ground.cap_m(d) * (0.3 + 0.7 * edge)) *
+                                         d;
             v.offset = at - place->on(scene.rest);
             v.along = ground.flow(at);
             v.out = d;
             v.strand = style.flow == HairFlow::kParting
-                           ? Vec2(at.z() / kStrandsAcross_m, std::abs(at.x() - ground.parting_m()) / kStrandsAlong_m)
+                           ? Vec2(at.z() / kStrandsAcross_m,
+                                  std::abs(at.x() - ground.parting_m()) / kStrandsAlong_m)
                            : Vec2(4.0 * column / kCapColumns * 2, 0.1 * angle / kStrandsAlong_m);
             v.lit = style.lit_cap;
             hair.vertices.push_back(v);
@@ -147,15 +154,18 @@ void add_cap(const LockGround& ground, const LockStyle& style, const Scene& scen
         }
     piece.indices = hair.triangles.size() - piece.first_index;
     piece.vertices = hair.vertices.size() - piece.first_vertex;
-    hair.casters.insert(hair.casters.end(), hair.triangles.begin() + static_cast<std::ptrdiff_t>(piece.first_index), hair.triangles.end());
+    hair.casters.insert(hair.casters.end(),
+                        hair.triangles.begin() + static_cast<std::ptrdiff_t>(piece.first_index),
+                        hair.triangles.end());
     hair.pieces.push_back(piece);
     cover_skin(ground, scene, ahead, right, reaches, hair);
 }
 
 /// Every third lock, with every other row of it.
 void add_casters(Hair& hair) {
-    for (std::size_t p = 0; p < hair.pieces.size(); p += 3) {
-        const HairPiece& piece = hair.pieces[p];
+    std::size_t number = 0;
+    for (const HairPiece& piece : hair.pieces) {
+        if (!piece.casts || number++ % 3 != 0) continue;
         const auto first = static_cast<unsigned>(piece.first_vertex),
                    columns = static_cast<unsigned>(piece.columns),
                    rows = static_cast<unsigned>(piece.vertices) / columns;
@@ -178,9 +188,8 @@ Hair plan_hair(const Scene& scene, const SkinPlan& plan, const Vec3& paint_centr
     RandomSequence random(scene.appearance.seed * 40503U + 11U);
     // The outermost locks come first: what they hide is then not shaded.
     std::vector<LockGuide> guides = ground.guides(scene.appearance.seed);
-    std::stable_sort(guides.begin(), guides.end(), [](const LockGuide& a, const LockGuide& b) {
-        return a.layer > b.layer;
-    });
+    std::stable_sort(guides.begin(), guides.end(),
+                     [](const LockGuide& a, const LockGuide& b) { return a.layer > b.layer; });
     for (const LockGuide& guide : guides) {
         const LockChance chance{random.next(), random.next(), random.next()};
         add_lock(guide, *style, guide.root.on(scene.rest), chance, hair);
@@ -209,6 +218,7 @@ PosedHair pose_hair(const Hair& hair, const Points& rest, const Points& position
     Mat3 flip = Mat3::Identity();
     flip(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
     posed.turned = svd.matrixU() * flip * svd.matrixV().transpose();
+    posed.moved = to / count - posed.turned * (from / count);
     std::vector<Vec3> roots;
     roots.reserve(hair.roots.size());
     for (const SkinPlace& root : hair.roots) roots.push_back(root.on(positions));

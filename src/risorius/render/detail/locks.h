@@ -28,7 +28,8 @@ struct HairVertex {
 struct HairPiece {
     std::size_t first_index = 0, indices = 0, first_vertex = 0, vertices = 0;
     std::size_t columns = 0;  ///< vertices across a lock; 0: the cap
-    bool turns_away = true;  ///< may be left out where all of it faces away from the camera
+    bool turns_away = true;   ///< may be left out where it faces away from the camera
+    bool casts = true;        ///< counts for the shadow
 };
 
 struct Hair {
@@ -50,6 +51,8 @@ Hair plan_hair(const Scene& scene, const SkinPlan& plan, const Vec3& paint_centr
 struct PosedHair {
     Points positions;
     Mat3 turned = Mat3::Identity();
+    Vec3 moved = Vec3::Zero();  ///< where the origin of the head frame is, m, world
+    Vec3 in_head(const Vec3& at) const { return moved + turned * at; }
 };
 PosedHair pose_hair(const Hair& hair, const Points& rest, const Points& positions);
 

@@ -76,7 +76,8 @@ void main() {
 
 std::string lock_vertex_shader() { return frame_chunk() + lights_chunk() + kLockVertex; }
 std::string lock_shader(bool layer) {
-    return frame_chunk() + lights_chunk() + "in vec3 position;\n" + told_chunk(layer) + kLockFragment;
+    return frame_chunk() + lights_chunk() + "in vec3 position;\n" + told_chunk(layer) +
+           kLockFragment;
 }
 
 }  // namespace risorius::render

@@ -207,8 +207,7 @@ std::string skin_layer_shader(const SkinRelief& relief) {
     return lighting_chunk() + kOpaque + skin_with(relief, turns_chunk() + kAway);
 }
 std::string draft_skin_shader(bool layer) {
-    return frame_chunk() + lights_chunk() + "in vec3 position;\n" +
-           told_chunk(layer) + kDraft;
+    return frame_chunk() + lights_chunk() + "in vec3 position;\n" + told_chunk(layer) + kDraft;
 }
 std::string veil_shader(const SkinRelief& relief) {
     return lighting_chunk() + "const float kVeil = " + std::to_string(kSkinOverMuscles) + ";\n" +

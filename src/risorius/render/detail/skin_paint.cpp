@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "risorius/render/detail/crease_strokes.h"
 #include "risorius/render/detail/gl_context.h"
 #include "risorius/render/detail/own_textures.h"
 #include "risorius/render/detail/paint_strokes.h"
@@ -171,6 +172,7 @@ GLuint paint_skin(const Scene& scene, const SceneBuffers& buffers, const OwnText
     // Hair and freckles over the skin, or the texture that shows them
     if (has_own_skin(scene)) own.paint_skin(scene, centre, triangles);
     glDisable(GL_DEPTH_TEST);
+    if (!has_own_skin(scene)) draw_strokes(plan_creases(scene, centre));
     if (!has_own_skin(scene)) draw_strokes(plan_strokes(scene, plan, centre, triangles));
     glEnable(GL_DEPTH_TEST);
 

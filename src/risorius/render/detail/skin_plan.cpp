@@ -152,11 +152,12 @@ void plan_hairline(const Marks& marks, const Vec3& centre, const Appearance& app
     // Higher on the forehead is also farther back; the map only knows the direction from the middle of the head.
     const HairlineForm& form = hairline_form(appearance.hairline_form);
     const double temples_mm = appearance.temples_mm + form.temples_mm;
-    const Vec3 up(0, 0.75, -0.65), higher = 1e-3 * (appearance.hairline_mm + form.higher_mm) * up,
-                                   bay = higher + 1e-3 * temples_mm * Vec3(0, 0.7, -0.7) +
-                                         1e-3 * form.bay_mm * up,
-                                   side_bay = 0.4 * higher + 1e-3 * temples_mm * Vec3(0, 0.3, -0.6);
-    const Vec3 crown = front[0] + higher + 1e-3 * form.middle_mm * up, &temple_l = front[1], &temple_r = front[2];
+    const Vec3 up(0, 0.75, -0.65),
+        higher = 1e-3 * (appearance.hairline_mm + form.higher_mm) * up,
+        bay = higher + 1e-3 * temples_mm * Vec3(0, 0.7, -0.7) + 1e-3 * form.bay_mm * up,
+        side_bay = 0.4 * higher + 1e-3 * temples_mm * Vec3(0, 0.3, -0.6);
+    const Vec3 crown = front[0] + higher + 1e-3 * form.middle_mm * up, &temple_l = front[1],
+               &temple_r = front[2];
     for (const int side : {0, 1}) {
         const double s = side == 0 ? 1 : -1;
         const Vec3& temple = side == 0 ? temple_l : temple_r;

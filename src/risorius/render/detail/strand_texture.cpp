@@ -46,26 +46,31 @@ GLuint make_strand_texture(unsigned seed, double white_share) {
                 const int column = static_cast<int>(std::floor(x)) + dx;
                 const double covered =
                     std::clamp(half + 0.5 - std::abs(column + 0.5 - x), 0.0, 1.0) * fade;
-                const auto k = y * kAcross + static_cast<std::size_t>((column + 4 * kAcross) % kAcross);
+                const auto k =
+                    y * kAcross + static_cast<std::size_t>((column + 4 * kAcross) % kAcross);
                 bright[k] += static_cast<float>(
                     covered * 0.55 * (0.12 + 0.80 * value - static_cast<double>(bright[k])));
-                white[k] += static_cast<float>(covered * ((is_white ? 1.0 : 0.0) -
-                                                          static_cast<double>(white[k])));
+                white[k] += static_cast<float>(
+                    covered * ((is_white ? 1.0 : 0.0) - static_cast<double>(white[k])));
             }
         }
     }
     std::vector<std::uint8_t> texels(2 * kCount);
     for (std::size_t k = 0; k < kCount; ++k) {
-        texels[2 * k] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(bright[k], 0.0F, 1.0F)));
+        texels[2 * k] =
+            static_cast<std::uint8_t>(std::lround(255 * std::clamp(bright[k], 0.0F, 1.0F)));
         // Hairs lie side by side in every strand, so that none is all white or all dark.
-        const auto mixed = static_cast<float>(white_share + 0.45 * (static_cast<double>(white[k]) - white_share));
-        texels[2 * k + 1] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(mixed, 0.0F, 1.0F)));
+        const auto mixed =
+            static_cast<float>(white_share + 0.45 * (static_cast<double>(white[k]) - white_share));
+        texels[2 * k + 1] =
+            static_cast<std::uint8_t>(std::lround(255 * std::clamp(mixed, 0.0F, 1.0F)));
     }
     GLuint texture = 0;
     glGenTextures(1, &texture);
     glBindTexture(GL_TEXTURE_2D, texture);
     glTexStorage2D(GL_TEXTURE_2D, 9, GL_RG8, kAcross, kAlong);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kAcross, kAlong, GL_RG, GL_UNSIGNED_BYTE, texels.data());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kAcross, kAlong, GL_RG, GL_UNSIGNED_BYTE,
+                    texels.data());
     glGenerateMipmap(GL_TEXTURE_2D);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/headmodel/detail/identity_hair.h"
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "risorius/core/error.h"
+#include "risorius/core/known_names.h"
+#include "risorius/render/hair_styles.h"
+
+namespace risorius::headmodel {
+
+const std::vector<std::string_view>& identity_hair_keys() {
+    static const std::vector<std::string_view> keys{"hair_style", "hairline_form", "grey_hair",
+                                                    "age_lines", "seed"};
+    return keys;
+}
+
+IdentityHair read_identity_hair(const JsonCursor& json) {
+    IdentityHair hair;
+    if (json.has("hair_style")) hair.style = json.at("hair_style").string();
+    if (json.has("hairline_form")) hair.hairline_form = json.at("hairline_form").string();
+    if (json.has("grey_hair")) hair.grey = json.at("grey_hair").number();
+    if (json.has("age_lines")) hair.age_lines = json.at("age_lines").number();
+    if (json.has("seed")) hair.seed = json.at("seed").integer(0, std::numeric_limits<int>::max());
+    return hair;
+}
+
+void check_identity_hair(const IdentityHair& hair,
+                         const std::function<std::string(const std::string& field)>& place) {
+    index_of_name(place("hair_style"), hair.style, render::hair_style_names());
+    index_of_name(place("hairline_form"), hair.hairline_form, render::hairline_form_names());
+    for (const auto& [key, value] :
+         {std::pair{"grey_hair", hair.grey}, std::pair{"age_lines", hair.age_lines}})
+        if (!(value >= 0 && value <= 1)) throw Error(place(key), "[0, 1]", format_number(value));
+}
+
+void write_identity_hair(const IdentityHair& hair, Json& json) {
+    const IdentityHair usual;
+    if (hair.style != usual.style) json["hair_style"] = hair.style;
+    if (hair.hairline_form != usual.hairline_form) json["hairline_form"] = hair.hairline_form;
+    if (hair.grey != usual.grey) json["grey_hair"] = hair.grey;
+    if (hair.age_lines != usual.age_lines) json["age_lines"] = hair.age_lines;
+    if (hair.seed != usual.seed) json["seed"] = hair.seed;
+}
+
+}  // namespace risorius::headmodel

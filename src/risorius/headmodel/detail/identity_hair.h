@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// What an identity says about how it is drawn beyond its tones: hair, lines of age, and the seed of all that is random.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "risorius/core/json_cursor.h"
+
+namespace risorius::headmodel {
+
+struct IdentityHair {
+    std::string style = "shaven";        ///< a name of render::hair_style_names()
+    std::string hairline_form = "even";  ///< a name of render::hairline_form_names()
+    double grey = 0;                     ///< 0..1, share of white hairs beyond what comes with age
+    double age_lines = 0;                ///< 0..1, strength of the lines that come with age
+    int seed = 1;                        ///< of locks, hairs, pores and spots
+    bool operator==(const IdentityHair&) const = default;
+};
+
+/// The keys of an identity file that read_identity_hair() reads.
+const std::vector<std::string_view>& identity_hair_keys();
+IdentityHair read_identity_hair(const JsonCursor& json);
+/// Throws Error on unknown names and on values out of range. `place` returns the place of a key.
+void check_identity_hair(const IdentityHair& hair,
+                         const std::function<std::string(const std::string& field)>& place);
+/// Adds the keys that differ from the default, to an identity and to the appearance of a rig alike.
+void write_identity_hair(const IdentityHair& hair, Json& json);
+
+}  // namespace risorius::headmodel

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Hair as locks over a cap: where they lie on the round head, and how they move with it.
+#include "risorius/render/detail/locks.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "render/round_head.h"
+#include "render/small_pictures.h"
+#include "risorius/core/error.h"
+#include "risorius/render/detail/skin_paint.h"
+#include "risorius/render/hair_styles.h"
+
+namespace risorius::render {
+namespace {
+
+/// A round head whose hairline is known.
+struct HairyHead : RoundHead {
+    HairyHead() {
+        scene.landmarks["tr"] = on_skin(0, 0.065);
+        scene.landmarks["fht_l"] = on_skin(0.055, 0.045);
+        scene.landmarks["fht_r"] = on_skin(-0.055, 0.045);
+        scene.landmarks["op"] = Vec3(0, 0.02, -0.098);
+        scene.landmarks["go_l"] = on_skin(0.06, -0.06);
+    }
+};
+
+Hair hair_on(Scene scene, const std::string& style, unsigned seed = 1) {
+    scene.appearance.hair_style = style;
+    scene.appearance.seed = seed;
+    const Vec3 centre = paint_centre(scene, Vec3::Constant(-0.1), Vec3::Constant(0.1));
+    return plan_hair(scene, plan_skin(scene, centre), centre);
+}
+
+Points places_of(const Hair& hair, const Points& rest) {
+    return pose_hair(hair, rest, rest).positions;
+}
+
+TEST(Locks, TheSameSeedGivesTheSameLocksAndAnotherSeedOthers) {
+    const HairyHead head;
+    const Points one = places_of(hair_on(head.scene, "short_parted"), head.scene.rest);
+    EXPECT_EQ(one, places_of(hair_on(head.scene, "short_parted"), head.scene.rest));
+    const Points other = places_of(hair_on(head.scene, "short_parted", 2), head.scene.rest);
+    EXPECT_TRUE(one.rows() != other.rows() || one != other);
+}
+
+TEST(Locks, EveryStyleHasLocksThatLieOnTheHeadAndNoTwoAreAlike) {
+    const HairyHead head;
+    constexpr double kBelowSkin_m = 0.0005;  // as the skin is made of flat triangles
+    std::set<std::size_t> counts;
+    for (const std::string& style : hair_style_names()) {
+        const Hair hair = hair_on(head.scene, style);
+        EXPECT_EQ(hair.empty(), style == "shaven") << style;
+        if (hair.empty()) continue;
+        const Points places = places_of(hair, head.scene.rest);
+        EXPECT_GE(places.rowwise().norm().minCoeff(), kHeadRadius_m - kBelowSkin_m) << style;
+        EXPECT_TRUE(places.allFinite()) << style;
+        counts.insert(hair.vertices.size());
+    }
+    EXPECT_EQ(counts.size() + 1, hair_style_names().size());
+}
+
+TEST(Locks, HairTurnsWithTheHead) {
+    const HairyHead head;
+    const Hair hair = hair_on(head.scene, "bob");
+    const Mat3 turn = Eigen::AngleAxisd(0.4, Vec3(0.2, 0.9, -0.1).normalized()).toRotationMatrix();
+    const Vec3 move(0.01, -0.02, 0.03);
+    Points turned = (head.scene.rest * turn.transpose()).rowwise() + move.transpose();
+    const PosedHair posed = pose_hair(hair, head.scene.rest, turned);
+    const Points expected =
+        (places_of(hair, head.scene.rest) * turn.transpose()).rowwise() + move.transpose();
+    EXPECT_LT((posed.positions - expected).cwiseAbs().maxCoeff(), 1e-9);  // rounding of 0.1 m
+    EXPECT_LT((posed.turned - turn).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(Locks, TheForeheadStaysFreeOfAShortStyle) {
+    const HairyHead head;
+    const Points places = places_of(hair_on(head.scene, "crop"), head.scene.rest);
+    for (Eigen::Index v = 0; v < places.rows(); ++v)
+        EXPECT_FALSE(places(v, 2) > 0.085 && std::abs(places(v, 0)) < 0.03);
+}
+
+TEST(Locks, AnUnknownStyleIsNamedWithTheOnesThatThereAre) {
+    const HairyHead head;
+    try {
+        hair_on(head.scene, "bobb");
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(),
+                     "hair_style: expected one of \"shaven\", \"crop\", \"short_parted\", "
+                     "\"curly_short\", \"afro\", \"bob\", \"long_tied\", \"bald_fringe\" (did you "
+                     "mean \"bob\"?), found \"bobb\"");
+    }
+}
+
+TEST(Locks, HairOfAStyleIsSeenOverTheHeadAndShavenHeadsStayAsTheyAre) {
+    HairyHead head;
+    const ViewOptions options{.width_px = 128, .height_px = 128, .camera = "front"};
+    const Image bare = OffscreenView(head.scene, options).draw(head.pose);
+    head.scene.appearance.hair_style = "shaven";
+    EXPECT_EQ(OffscreenView(head.scene, options).draw(head.pose).rgba, bare.rgba);
+    head.scene.appearance.hair_style = "afro";
+    head.scene.appearance.hair_tone = Vec3(0.05, 0.04, 0.03);
+    OffscreenView view(head.scene, options);
+    const Image hairy = view.draw(head.pose);
+    EXPECT_EQ(view.draw(head.pose).rgba, hairy.rgba);
+    const Vec3 above(0, kHeadRadius_m + 0.012, -0.01);
+    EXPECT_LT(brightness_of(mean_colour(hairy, view.project(above), 1)),
+              0.5 * brightness_of(mean_colour(bare, view.project(above), 1)));
+}
+
+}  // namespace
+}  // namespace risorius::render
