@@ -73,8 +73,9 @@ void check_identity(const Identity& identity, const DesignTables& tables, const 
 
 Identity read_identity(const std::filesystem::path& file, const DesignTables& tables) {
     const JsonCursor json = JsonCursor::read_file(file);
-    json.allow_keys({"format", "version", "name", "model", "ancestry", "sex", "age", "shape", "skin", "iris", "hair",
-                     "freckles", "scalp_hair", "hairline", "temples", "beard"});
+    json.allow_keys({"format", "version", "name", "model", "ancestry", "sex", "age", "shape",
+                     "skin", "iris", "hair", "freckles", "scalp_hair", "hairline", "temples",
+                     "beard"});
     json.at("format").one_of({"risorius-identity"});
     json.at("version").integer(1, 1);
     Identity identity;
