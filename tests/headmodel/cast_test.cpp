@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Casts, and persons between others.
-#include "risorius/headmodel/cast.h"
+#include "risorius/headmodel/detail/cast.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "message_of.h"
+#include "risorius/headmodel/detail/deform_head.h"
 #include "risorius/headmodel/detail/population.h"
 #include "temporary_folder.h"
 
@@ -52,6 +53,35 @@ TEST(Cast, IsBalancedAndNoTwoAreAlike) {
         "name\tsex\tage\tancestry\tseed\tnearest_sd\tnearest_to\tbitragion_breadth_mm\t"))
         << table;
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
+}
+
+/// Half of them women, a third in each of three bands of age, a quarter of each ancestry.
+TEST(Cast, NamedPeopleOfThePopulationAreBalancedAndDiffer) {
+    std::vector<Identity> people;
+    std::map<std::string, int> of_ancestry;
+    int women = 0, young = 0, old = 0;
+    for (const std::string& name : named_identities()) {
+        const Identity one = read_identity(identity_file(name), cast_tables());
+        if (one.model != Model::kPopulation) continue;
+        EXPECT_EQ(one.name, name);
+        ++of_ancestry[one.ancestry.begin()->first];
+        women += one.sex < 0;
+        young += one.age < 35;
+        old += one.age >= 55;
+        for (const Identity& other : people)
+            EXPECT_GE(distance_sd(one, other, cast_tables()), kLeastDistance)
+                << name << " " << other.name;
+        people.push_back(one);
+    }
+    EXPECT_EQ(people.size(), 24u);
+    EXPECT_EQ(women, 12);
+    EXPECT_EQ(young, 8);
+    EXPECT_EQ(old, 8);
+    for (const auto& [ancestry, count] : of_ancestry) EXPECT_EQ(count, 6) << ancestry;
+    const HeadModel average = make_head(cast_tables());
+    for (std::size_t k = 0; k < people.size(); k += 5)
+        EXPECT_FALSE(runs_through_itself(deform_head(average, cast_tables(), people[k])))
+            << people[k].name;
 }
 
 TEST(Cast, ErrorsNameTheOption) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/headmodel/cast.h"
+#include "risorius/headmodel/detail/cast.h"
 
 #include <algorithm>
 #include <cmath>
