@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Casts, and persons between others.
-#include "risorius/headmodel/cast.h"
+#include "risorius/headmodel/detail/cast.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "message_of.h"
+#include "risorius/headmodel/detail/deform_head.h"
 #include "risorius/headmodel/detail/population.h"
 #include "temporary_folder.h"
 
@@ -41,14 +42,46 @@ TEST(Cast, IsBalancedAndNoTwoAreAlike) {
     EXPECT_EQ(women, 3);
     EXPECT_EQ(young, 2);
     EXPECT_EQ(old, 2);
-    const auto again = choose_cast(options, cast_tables());
-    for (std::size_t k = 0; k < cast.size(); ++k)
+    // The cast of two is the beginning of the cast of six.
+    CastOptions two = options;
+    two.count = 2;
+    const auto again = choose_cast(two, cast_tables());
+    for (std::size_t k = 0; k < 2; ++k)
         EXPECT_EQ(text_of(cast[k].identity), text_of(again[k].identity));
     const std::string table = cast_table({cast[0], cast[1]}, cast_tables());
     EXPECT_TRUE(table.starts_with(
         "name\tsex\tage\tancestry\tseed\tnearest_sd\tnearest_to\tbitragion_breadth_mm\t"))
         << table;
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
+}
+
+/// Half of them women, a third in each of three bands of age, a quarter of each ancestry.
+TEST(Cast, NamedPeopleOfThePopulationAreBalancedAndDiffer) {
+    std::vector<Identity> people;
+    std::map<std::string, int> of_ancestry;
+    int women = 0, young = 0, old = 0;
+    for (const std::string& name : named_identities()) {
+        const Identity one = read_identity(identity_file(name), cast_tables());
+        if (one.model != Model::kPopulation) continue;
+        EXPECT_EQ(one.name, name);
+        ++of_ancestry[one.ancestry.begin()->first];
+        women += one.sex < 0;
+        young += one.age < 35;
+        old += one.age >= 55;
+        for (const Identity& other : people)
+            EXPECT_GE(distance_sd(one, other, cast_tables()), kLeastDistance)
+                << name << " " << other.name;
+        people.push_back(one);
+    }
+    EXPECT_EQ(people.size(), 24u);
+    EXPECT_EQ(women, 12);
+    EXPECT_EQ(young, 8);
+    EXPECT_EQ(old, 8);
+    for (const auto& [ancestry, count] : of_ancestry) EXPECT_EQ(count, 6) << ancestry;
+    const HeadModel average = make_head(cast_tables());
+    for (std::size_t k = 0; k < people.size(); k += 5)
+        EXPECT_FALSE(runs_through_itself(deform_head(average, cast_tables(), people[k])))
+            << people[k].name;
 }
 
 TEST(Cast, ErrorsNameTheOption) {
@@ -63,8 +96,8 @@ TEST(Cast, ErrorsNameTheOption) {
 }
 
 TEST(Morph, BeginsAtOneAndEndsAtTheOther) {
-    const Identity a = random_person(1, {.ancestry = "african"}, cast_tables()),
-                   b = random_person(2, {.ancestry = "european"}, cast_tables());
+    const Identity a = random_person(1, {.age = 25, .ancestry = "african"}, cast_tables()),
+                   b = random_person(2, {.age = 40, .ancestry = "european"}, cast_tables());
     EXPECT_EQ(text_of(morph(a, b, 0)), text_of(a));
     EXPECT_EQ(text_of(morph(a, b, 1)), text_of(b));
     const Identity middle = morph(a, b, 0.5);
@@ -74,19 +107,19 @@ TEST(Morph, BeginsAtOneAndEndsAtTheOther) {
     for (const auto& [parameter, value] : middle.shape)
         EXPECT_NEAR(value, (a.shape.at(parameter) + b.shape.at(parameter)) / 2, 1e-12);
     // Equal steps, and as far from the one as from the other
-    EXPECT_NEAR(distance_sd(a, middle, cast_tables()), distance_sd(middle, b, cast_tables()), 0.1);
+    EXPECT_NEAR(distance_sd(a, middle, cast_tables()), distance_sd(middle, b, cast_tables()), 1e-9);
     EXPECT_EQ(message_of([&] { morph(a, Identity{}, 0.5); }),
               "morph: expected persons of one model, found seed1 and adult of two");
 }
 
 TEST(Average, OfAPersonIsThePersonAndOfManyIsNearNobody) {
-    const Identity one = random_person(1, {.sex = 1, .age = 40, .ancestry = "european"},
-                                       cast_tables());
+    const Identity one =
+        random_person(1, {.sex = 1, .age = 40, .ancestry = "european"}, cast_tables());
     EXPECT_EQ(average_of({one, one}).shape, one.shape);
     std::vector<Identity> many;
     for (unsigned seed = 1; seed <= 60; ++seed)
-        many.push_back(random_person(seed, {.sex = 1, .age = 40, .ancestry = "european"},
-                                     cast_tables()));
+        many.push_back(
+            random_person(seed, {.sex = 1, .age = 40, .ancestry = "european"}, cast_tables()));
     const Identity mean = average_of(many);
     EXPECT_NEAR(mean.age, 40, 1e-9);
     // The mean of n persons varies by 1 / sqrt(n) of what a person does.

@@ -71,7 +71,8 @@ std::string footer() {
                listed(headmodel::shape_parameters(tables)) +
                "\nShapes of the population, from -4 to 4 about the mean of sex, age and ancestry:" +
                listed(headmodel::shape_parameters(tables, headmodel::Model::kPopulation)) +
-               "\nAncestry:" + listed(tables.ancestries) + "\nSkin:" + listed(headmodel::tone_names(tables, "skin")) +
+               "\nAncestry:" + listed(tables.ancestries) +
+               "\nSkin:" + listed(headmodel::tone_names(tables, "skin")) +
                "\nIris:" + listed(headmodel::tone_names(tables, "iris")) +
                "\nHair:" + listed(headmodel::tone_names(tables, "hair")) + "\n";
     } catch (const Error& error) {
@@ -97,13 +98,17 @@ void add_people(CLI::App& command, HeadArguments& arguments) {
                        "caricature, 0.5 an anti-caricature");
     command.add_flag("--identity-only", arguments.options.identity_only,
                      "Write only identity.json, which takes less than a second");
-    command.add_option("--cast", arguments.cast.count,
-                       "Choose this many persons that differ, 2 to 200, with --seed. Writes their "
-                       "identities, p01.json and so on, and the table cast.tsv, but no heads");
+    CLI::Option* cast = command.add_option(
+        "--cast", arguments.cast.count,
+        "Choose this many persons that differ, 2 to 200, with --seed. Writes their "
+        "identities, p01.json and so on, and the table cast.tsv, but no heads");
+    for (const char* source : {"--identity", "--morph", "--average", "--exaggerate"})
+        cast->excludes(command.get_option(source));
     command
         .add_option("--balance", arguments.cast.balance,
                     "What a cast has equally often: sex, age, ancestry, or several of them")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->needs(cast);
 }
 
 }  // namespace

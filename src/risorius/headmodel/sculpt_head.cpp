@@ -223,10 +223,11 @@ SculptReport sculpt_head(const SculptOptions& options, const ProgressMonitor& mo
         headmodel::deform_head(headmodel::make_head(tables), tables, options.identity);
     headmodel::check_spread(model, tables, options.identity, options.place);
     report.quality = headmodel::head_quality(model, tables, options.identity.sex, false);
-    if (report.quality.self_intersections > 0)
-        throw Error(options.place, "a head that does not run through itself",
-                    std::to_string(report.quality.self_intersections) +
-                        " pairs of triangles that do");
+    if (options.identity.model == headmodel::Model::kPopulation &&
+        report.quality.self_intersections > 0)
+        throw Error(
+            options.place, "a head that does not run through itself",
+            std::to_string(report.quality.self_intersections) + " pairs of triangles that do");
 
     // Write who it is, mesh and landmarks
     report::AtomicFolder folder(options.out);

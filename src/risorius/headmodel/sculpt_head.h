@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "risorius/core/progress_monitor.h"
-#include "risorius/headmodel/cast.h"
+#include "risorius/headmodel/detail/cast.h"
 #include "risorius/headmodel/detail/identity.h"
 #include "risorius/headmodel/head_quality.h"
 

@@ -81,10 +81,9 @@ Vec3 displacement(const Vec3& p, const std::vector<Force>& forces, double half) 
             if (h.kind == Handle::Kind::kScale)
                 sum += Vec3(weight * 0.01 * h.by.cwiseProduct(p - at));
             else if (h.kind == Handle::Kind::kLean)
-                sum += middle ? Vec3(weight * half * h.by.x(), weight * h.by.y(),
-                                     weight * h.by.z())
-                              : Vec3(side * half * weight *
-                                     Vec3(side * h.by.x(), h.by.y(), h.by.z()));
+                sum += middle
+                           ? Vec3(weight * half * h.by.x(), weight * h.by.y(), weight * h.by.z())
+                           : Vec3(side * half * weight * Vec3(side * h.by.x(), h.by.y(), h.by.z()));
             else
                 sum += Vec3(weight * Vec3(side * h.by.x(), h.by.y(), h.by.z()));
         }
@@ -116,8 +115,8 @@ class Warp {
         for (const Force& force : forces_) {
             const Handle& h = force.handle;
             if (!along_globe(h) && !in_front_of_globe(h)) continue;
-            const double weight = force.strength * (leans(h) ? half_ : 1.0) *
-                                  bell((p - h.at).norm() / h.reach_mm);
+            const double weight =
+                force.strength * (leans(h) ? half_ : 1.0) * bell((p - h.at).norm() / h.reach_mm);
             if (along_globe(h))
                 by += weight * h.by;
             else

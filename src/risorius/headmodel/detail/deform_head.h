@@ -7,8 +7,10 @@
 /// (1 - t)^4 (4 t + 1) with t = d / reach. A point p of the left side moves to
 ///   p + sum over handles of  parameter * k * by                (move)
 ///                            parameter * k * by (p - at) / 100 (scale)
-/// The right side is the mirror image. Near each globe the displacement fades into that of the globe's centre, so that globes keep their
-/// form and lids their distance. Then lid handles slide the lids over the globe. The map is smooth and, within the ranges of identity.h,
+/// The right side is the mirror image; lean handles move it the other way instead. Near each globe the displacement fades into that of
+/// the globe's centre, so that globes keep their
+/// form and lids their distance. Then lid handles slide the lids over the globe, and near and corner handles move what lies in front of it, which keeps 0.6 of its
+/// distance at least. The map is smooth and, within the ranges of identity.h,
 /// one-to-one, so a mesh without self-intersections stays free of them.
 #pragma once
 

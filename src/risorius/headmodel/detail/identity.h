@@ -44,8 +44,7 @@ struct Identity {
 };
 
 /// Returns the names of the parameters of the table except sex and age, in its order.
-std::vector<std::string> shape_parameters(const DesignTables& tables,
-                                          Model model = Model::kFamily);
+std::vector<std::string> shape_parameters(const DesignTables& tables, Model model = Model::kFamily);
 
 /// Returns the names that the tone of a part may have. `part`: skin, iris or hair.
 std::vector<std::string> tone_names(const DesignTables& tables, const std::string& part);

@@ -19,8 +19,7 @@ struct Colours {
 
 Colours colours_of(const std::string& ancestry) {
     if (ancestry == "african") return {{"brown", "dark"}, {"brown", "dark"}, {"black"}};
-    if (ancestry == "east_asian")
-        return {{"fair", "olive", "tan"}, {"brown", "dark"}, {"black"}};
+    if (ancestry == "east_asian") return {{"fair", "olive", "tan"}, {"brown", "dark"}, {"black"}};
     if (ancestry == "south_asian")
         return {{"brown", "olive", "tan"}, {"brown", "dark", "hazel"}, {"black"}};
     return {{"fair", "fair", "pale", "tan"},
@@ -37,8 +36,7 @@ void draw_colours(Draw& draw, const std::string& ancestry, Identity& person) {
     person.freckles = to_hundredths((light ? 0.5 : 0.1) * draw.even() * draw.even());
     person.beard = to_hundredths((person.sex > 0 ? 0.6 : 0) * draw.even());
     // Men lose hair with the years, some much and most little.
-    const double lost =
-        draw.even() * (person.sex > 0 ? std::max(0.0, person.age - 25) / 50 : 0.1);
+    const double lost = draw.even() * (person.sex > 0 ? std::max(0.0, person.age - 25) / 50 : 0.1);
     person.hairline = to_hundredths(std::clamp(3 * draw.normal() + 15 * lost, -8.0, 25.0));
     person.temples = to_hundredths(25 * lost);
     person.scalp_hair = to_hundredths(0.5 + 0.4 * draw.even());

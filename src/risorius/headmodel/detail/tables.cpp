@@ -202,13 +202,12 @@ std::vector<Measure> read_measures(const std::filesystem::path& file) {
     return measures;
 }
 
-const std::map<std::string, Handle::Kind> kFamilyKinds{{"move", Handle::Kind::kMove},
-                                                       {"scale", Handle::Kind::kScale},
-                                                       {"lid", Handle::Kind::kLid}};
+const std::map<std::string, Handle::Kind> kFamilyKinds{
+    {"move", Handle::Kind::kMove}, {"scale", Handle::Kind::kScale}, {"lid", Handle::Kind::kLid}};
 const std::map<std::string, Handle::Kind> kPopulationKinds{
-    {"move", Handle::Kind::kMove}, {"scale", Handle::Kind::kScale},
-    {"lid", Handle::Kind::kLid},       {"near", Handle::Kind::kNear},
-    {"corner", Handle::Kind::kCorner}, {"lean", Handle::Kind::kLean},
+    {"move", Handle::Kind::kMove},       {"scale", Handle::Kind::kScale},
+    {"lid", Handle::Kind::kLid},         {"near", Handle::Kind::kNear},
+    {"corner", Handle::Kind::kCorner},   {"lean", Handle::Kind::kLean},
     {"lean_lid", Handle::Kind::kLeanLid}};
 
 std::vector<Handle> read_handles(const std::filesystem::path& file,
@@ -237,8 +236,8 @@ std::vector<Handle> read_handles(const std::filesystem::path& file,
 void read_population(const std::filesystem::path& file, DesignTables& tables) {
     constexpr std::size_t kFirstAncestry = 5;
     const auto cells = read_csv(file);
-    const auto own = static_cast<std::size_t>(
-        std::find(cells[0].begin(), cells[0].end(), "own") - cells[0].begin());
+    const auto own = static_cast<std::size_t>(std::find(cells[0].begin(), cells[0].end(), "own") -
+                                              cells[0].begin());
     if (own <= kFirstAncestry || own >= cells[0].size())
         throw Error(file.string(), "ancestries and then a column own", cells[0].back());
     tables.ancestries.assign(cells[0].begin() + kFirstAncestry,
@@ -290,8 +289,7 @@ DesignTables read_design_tables(const std::filesystem::path& folder) {
     tables.bust = read_bust_edge(folder / "bust_edges.csv", "bust");
     tables.measures = read_measures(folder / "anthropometry.csv");
     tables.handles = read_handles(folder / "parameters.csv", kFamilyKinds);
-    tables.population_handles =
-        read_handles(folder / "population_handles.csv", kPopulationKinds);
+    tables.population_handles = read_handles(folder / "population_handles.csv", kPopulationKinds);
     read_population(folder / "population.csv", tables);
     const auto tones = folder / "tones.csv";
     for (const auto& row : read_csv(tones))

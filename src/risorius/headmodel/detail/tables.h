@@ -81,11 +81,11 @@ struct Handle {
 /// How one parameter is spread among adults, in its standard deviations within a sex and an ancestry.
 struct PopulationParameter {
     std::string name;
-    double mean;           ///< of all, against the average head
-    double sex, age;       ///< per unit: men 1, women -1; 1 at 80 years, 0 at 40
-    double late_age;       ///< per unit: 1 at 80 years, 0 until 45
+    double mean;                   ///< of all, against the average head
+    double sex, age;               ///< per unit: men 1, women -1; 1 at 80 years, 0 at 40
+    double late_age;               ///< per unit: 1 at 80 years, 0 until 45
     std::vector<double> ancestry;  ///< added, in the order of DesignTables::ancestries
-    double own;            ///< part that varies by itself
+    double own;                    ///< part that varies by itself
     std::vector<double> modes;     ///< parts along what all parameters have in common
 };
 
@@ -108,9 +108,9 @@ struct DesignTables {
     BustEdge neck_base, bust;
     std::vector<Measure> measures;
     std::vector<Handle> handles;
-    std::vector<Handle> population_handles;       ///< of persons of the population
-    std::vector<std::string> ancestries;          ///< sorted
-    std::vector<PopulationParameter> population;  ///< in the order of its table
+    std::vector<Handle> population_handles;                    ///< of persons of the population
+    std::vector<std::string> ancestries;                       ///< sorted
+    std::vector<PopulationParameter> population;               ///< in the order of its table
     std::map<std::string, std::map<std::string, Vec3>> tones;  ///< part, name: sRGB 0..1
 };
 

@@ -23,9 +23,9 @@ struct CastOptions {
 
 struct CastMember {
     Identity identity;
-    unsigned seed = 0;        ///< of the person, as --model 2 --seed takes it
-    double nearest_sd = 0;    ///< distance of the person most like this one
-    std::string nearest_to{}; ///< who that is
+    unsigned seed = 0;         ///< draws the person again, with the same sex, age and ancestry
+    double nearest_sd = 0;     ///< distance of the person most like this one
+    std::string nearest_to{};  ///< who that is
 };
 
 /// Chooses persons that differ: of kCandidates persons drawn for each place the one farthest from all chosen before. Persons are named

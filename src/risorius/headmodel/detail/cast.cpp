@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/headmodel/cast.h"
+#include "risorius/headmodel/detail/cast.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +19,9 @@ constexpr int kCandidates = 24;
 constexpr int kFewest = 2, kMost = 200;
 
 /// Numbers of the body of a person that are blended like lengths.
-constexpr double Identity::*kBlended[] = {&Identity::sex,        &Identity::age,
-                                          &Identity::freckles,   &Identity::scalp_hair,
-                                          &Identity::hairline,   &Identity::temples,
-                                          &Identity::beard};
+constexpr double Identity::*kBlended[] = {
+    &Identity::sex,      &Identity::age,     &Identity::freckles, &Identity::scalp_hair,
+    &Identity::hairline, &Identity::temples, &Identity::beard};
 constexpr std::string Identity::*kTones[] = {&Identity::skin, &Identity::iris, &Identity::hair};
 
 bool makes_uneven(const std::string& parameter) {
@@ -75,8 +74,12 @@ Identity drawn_for(const PersonChoice& place, bool balanced_age, unsigned seed,
     if (balanced_age) {
         // An age within the band, from the seed
         Draw draw(seed ^ 0x5bd1e995u);
-        const double from = *place.age < 35 ? 20 : *place.age < 55 ? 35 : 55,
-                     to = *place.age < 35 ? 34 : *place.age < 55 ? 54 : 75;
+        const double from = *place.age < 35   ? 20
+                            : *place.age < 55 ? 35
+                                              : 55,
+                     to = *place.age < 35   ? 34
+                          : *place.age < 55 ? 54
+                                            : 75;
         choice.age = std::round(from + (to - from) * draw.even());
     }
     return random_person(seed, choice, tables);
@@ -92,8 +95,7 @@ void check_models(const std::vector<Identity>& persons, const std::string& optio
 void keep_in_range(Identity& person) {
     const bool of_population = person.model == Model::kPopulation;
     const Range range = of_population ? kPersonShapeRange : kShapeRange;
-    for (auto& [parameter, value] : person.shape)
-        value = std::clamp(value, range.min, range.max);
+    for (auto& [parameter, value] : person.shape) value = std::clamp(value, range.min, range.max);
     person.sex = std::clamp(person.sex, kSexRange.min, kSexRange.max);
     person.age = std::clamp(person.age, kAgeRange.min, kAgeRange.max);
     for (const auto member : {&Identity::freckles, &Identity::scalp_hair, &Identity::beard})
@@ -121,8 +123,7 @@ Identity blended(const std::vector<Identity>& persons, const std::vector<double>
     }
     for (const auto member : kTones) {
         std::map<std::string, double> votes;
-        for (std::size_t k = 0; k < persons.size(); ++k)
-            votes[persons[k].*member] += weights[k];
+        for (std::size_t k = 0; k < persons.size(); ++k) votes[persons[k].*member] += weights[k];
         for (const Identity& person : persons)
             if (votes[person.*member] > votes[out.*member]) out.*member = person.*member;
     }
