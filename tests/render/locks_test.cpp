@@ -9,6 +9,7 @@
 #include "render/round_head.h"
 #include "render/small_pictures.h"
 #include "risorius/core/error.h"
+#include "risorius/render/detail/crease_strokes.h"
 #include "risorius/render/detail/skin_paint.h"
 #include "risorius/render/hair_styles.h"
 
@@ -72,6 +73,21 @@ TEST(Locks, HairTurnsWithTheHead) {
         (places_of(hair, head.scene.rest) * turn.transpose()).rowwise() + move.transpose();
     EXPECT_LT((posed.positions - expected).cwiseAbs().maxCoeff(), 1e-9);  // rounding of 0.1 m
     EXPECT_LT((posed.turned - turn).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(Locks, LinesOfAgeAreThereOnlyWhenAskedForAndAreTheSameForTheSameSeed) {
+    HairyHead head;
+    head.scene.landmarks["g"] = RoundHead::on_skin(0, 0.03);
+    head.scene.landmarks["ft_l"] = RoundHead::on_skin(0.055, 0.04);
+    head.scene.appearance.age = 0.9;
+    const auto count = [&] { return plan_creases(head.scene, Vec3::Zero()).size(); };
+    EXPECT_EQ(count(), 0U);
+    head.scene.appearance.age_lines = 1;
+    const std::size_t old = count();
+    EXPECT_GT(old, 100U);
+    EXPECT_EQ(count(), old);
+    head.scene.appearance.age = 0;
+    EXPECT_EQ(count(), 0U) << "at 25 years";
 }
 
 TEST(Locks, TheForeheadStaysFreeOfAShortStyle) {

@@ -389,6 +389,10 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
                                     {"reached", gain.reached}};
     json["expressions"] = table("expressions.json");
     json["appearance"] = fields_of(rig.appearance);
+    // Rigs that ask for no hair and no lines stay as they were before there were any.
+    const Json usual = fields_of(AppearanceDescription{});
+    for (const char* key : {"hair_style", "hairline_form", "grey_hair", "age_lines"})
+        if (json["appearance"][key] == usual[key]) json["appearance"].erase(key);
     if (const auto source = options.standard_folder / kCalibrationFile;
         std::filesystem::exists(source))
         json["calibrated_on"] = options.inline_tables

@@ -265,6 +265,8 @@ std::vector<LockGuide> LockGround::guides(unsigned seed) const {
         if (!grows(d, ragged)) continue;
         LockGuide one = guide(d, random, 1);
         if (one.points.empty()) continue;
+        // The border of cropped hair is made of single hairs alone.
+        if (one.edge && style_.flow == HairFlow::kWhorl) continue;
         // The temples turn grey first.
         one.grey = 0.2 * ramp(0.55, 0.85, std::abs(d.x()));
         guides.push_back(std::move(one));
