@@ -121,12 +121,23 @@ Identity blended(const std::vector<Identity>& persons, const std::vector<double>
         for (const auto& [name, share] : persons[k].ancestry)
             out.ancestry[name] += weights[k] * share;
     }
-    for (const auto member : kTones) {
+    // Of names, the one with the greatest weight; the first of equals
+    const auto choose = [&](auto&& name_of) {
         std::map<std::string, double> votes;
-        for (std::size_t k = 0; k < persons.size(); ++k) votes[persons[k].*member] += weights[k];
+        for (std::size_t k = 0; k < persons.size(); ++k) votes[name_of(persons[k])] += weights[k];
         for (const Identity& person : persons)
-            if (votes[person.*member] > votes[out.*member]) out.*member = person.*member;
+            if (votes[name_of(person)] > votes[name_of(out)]) name_of(out) = name_of(person);
+    };
+    for (const auto member : kTones) choose([&](auto& person) -> auto& { return person.*member; });
+    choose([](auto& person) -> auto& { return person.hairdo.style; });
+    choose([](auto& person) -> auto& { return person.hairdo.hairline_form; });
+    out.hairdo.grey = out.hairdo.age_lines = 0;
+    for (std::size_t k = 0; k < persons.size(); ++k) {
+        out.hairdo.grey += weights[k] * persons[k].hairdo.grey;
+        out.hairdo.age_lines += weights[k] * persons[k].hairdo.age_lines;
     }
+    out.hairdo.grey = std::clamp(out.hairdo.grey, 0.0, 1.0);
+    out.hairdo.age_lines = std::clamp(out.hairdo.age_lines, 0.0, 1.0);
     keep_in_range(out);
     return out;
 }
