@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/render/detail/gl_context.h"
 
+#include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -148,6 +150,21 @@ GlProgram::GlProgram(const std::string& name, const std::string& vertex,
         glGetProgramInfoLog(id_, sizeof log, nullptr, log);
         throw RunError("shader " + name + ": " + log);
     }
+}
+
+GLuint make_repeating_texture(int width, int height, const std::vector<std::uint8_t>& texels) {
+    const auto levels = std::bit_width(static_cast<unsigned>(std::max(width, height)));
+    GLuint texture = 0;
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexStorage2D(GL_TEXTURE_2D, static_cast<GLsizei>(levels), GL_RG8, width, height);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RG, GL_UNSIGNED_BYTE, texels.data());
+    glGenerateMipmap(GL_TEXTURE_2D);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
+    return texture;
 }
 
 }  // namespace risorius::render

@@ -3,7 +3,9 @@
 /// A context of OpenGL 4.5 core without a window, and ownership of GL programs.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "risorius/render/detail/gl.h"
 
@@ -52,5 +54,9 @@ class GlProgram {
   private:
     GLuint id_ = 0;
 };
+
+/// Makes a mip-mapped texture of two 8-bit channels that can be repeated. The sides are powers of two, and `texels` has the rows from
+/// the bottom. The context must be current.
+GLuint make_repeating_texture(int width, int height, const std::vector<std::uint8_t>& texels);
 
 }  // namespace risorius::render

@@ -221,17 +221,7 @@ GLuint make_pores(unsigned seed) {
             slopes[i] = static_cast<std::uint8_t>(std::clamp(127.5F + 110 * sx, 0.0F, 255.0F));
             slopes[i + 1] = static_cast<std::uint8_t>(std::clamp(127.5F + 110 * sy, 0.0F, 255.0F));
         }
-    GLuint texture = 0;
-    glGenTextures(1, &texture);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glTexStorage2D(GL_TEXTURE_2D, 10, GL_RG8, kSide, kSide);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kSide, kSide, GL_RG, GL_UNSIGNED_BYTE, slopes.data());
-    glGenerateMipmap(GL_TEXTURE_2D);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
-    return texture;
+    return make_repeating_texture(kSide, kSide, slopes);
 }
 
 }  // namespace risorius::render

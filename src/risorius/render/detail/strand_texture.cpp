@@ -65,18 +65,7 @@ GLuint make_strand_texture(unsigned seed, double white_share) {
         texels[2 * k + 1] =
             static_cast<std::uint8_t>(std::lround(255 * std::clamp(mixed, 0.0F, 1.0F)));
     }
-    GLuint texture = 0;
-    glGenTextures(1, &texture);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glTexStorage2D(GL_TEXTURE_2D, 9, GL_RG8, kAcross, kAlong);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kAcross, kAlong, GL_RG, GL_UNSIGNED_BYTE,
-                    texels.data());
-    glGenerateMipmap(GL_TEXTURE_2D);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
-    return texture;
+    return make_repeating_texture(kAcross, kAlong, texels);
 }
 
 }  // namespace risorius::render
