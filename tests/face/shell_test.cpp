@@ -9,6 +9,7 @@
 #include <cmath>
 #include <set>
 
+#include "cache_setting.h"
 #include "face/adult_face.h"
 #include "risorius/face/anatomy/detail/attachments.h"
 #include "risorius/face/anatomy/detail/jaw.h"
@@ -18,6 +19,7 @@
 #include "risorius/face/skin/detail/skin_binding.h"
 #include "risorius/face/solver/detail/contact_search.h"
 #include "risorius/geom/surface_topology.h"
+#include "temporary_folder.h"
 
 namespace risorius::face {
 namespace {
@@ -59,6 +61,29 @@ TEST(Shell, HasAboutAsManyVerticesAsAskedFor) {
     const Shell fine =
         build_shell(adult_tissue().head, adult_tissue().jaw, adult_tissue().lids, {1700});
     EXPECT_NEAR(static_cast<double>(fine.vertex.size()), 1700, 85);
+}
+
+TEST(Shell, IsTheSameFromTheCache) {
+    const Tissue& adult = adult_tissue();
+    TemporaryFolder folder;
+    const auto shell_in = [&](const std::string& cache) {
+        const CacheSetting place(cache);
+        return build_shell(adult.head, adult.jaw, adult.lids, {300});
+    };
+    const Shell computed = shell_in("off"), kept = shell_in(folder.path().string()),
+                found = shell_in(folder.path().string());
+    EXPECT_EQ(folder.listing().size(), 2u);  // the folder and one result
+    for (const Shell* shell : {&kept, &found}) {
+        EXPECT_EQ(shell->fine, computed.fine);
+        EXPECT_EQ(shell->direction, computed.direction);
+        EXPECT_EQ(shell->vertex, computed.vertex);
+        EXPECT_EQ(shell->triangles, computed.triangles);
+        EXPECT_EQ(shell->collapsed_to, computed.collapsed_to);
+        EXPECT_EQ(shell->fixed, computed.fixed);
+        EXPECT_EQ(shell->spacing_m, computed.spacing_m);
+        EXPECT_EQ(shell->over_bite_m, computed.over_bite_m);
+        EXPECT_EQ(shell->mirrored, computed.mirrored);
+    }
 }
 
 TEST(Shell, IsOneManifoldSheetWithHolesForMouthAndEyes) {

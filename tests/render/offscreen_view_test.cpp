@@ -13,11 +13,13 @@
 #include <string>
 #include <thread>
 
+#include "cache_setting.h"
 #include "message_of.h"
 #include "render/round_head.h"
 #include "render/small_pictures.h"
 #include "risorius/core/error.h"
 #include "risorius/render/gl_choice.h"
+#include "temporary_folder.h"
 
 namespace risorius::render {
 namespace {
@@ -29,6 +31,7 @@ std::uint64_t fingerprint_of_a_fresh_process(int threads, const char* gl = "osme
     if (pipe(ends) != 0) return 0;
     const pid_t child = fork();
     if (child == 0) {
+        const CacheSetting computed_anew("off");
         const RoundHead head;
         ViewOptions options = small();
         options.threads = threads;
@@ -75,6 +78,20 @@ TEST(OffscreenView, APictureIsTheSameForEveryRunAndNumberOfThreads) {
     EXPECT_EQ(fingerprint_of_a_fresh_process(0), alone);
     EXPECT_EQ(fingerprint_of_a_fresh_process(1), alone);
     EXPECT_EQ(fingerprint_of_a_fresh_process(2), alone);
+}
+
+TEST(OffscreenView, APictureIsTheSameFromTheCache) {
+    RoundHead head;
+    head.scene.shut = head.scene.rest;
+    const auto drawn_with = [&](const std::string& cache) {
+        const CacheSetting place(cache);
+        return OffscreenView(head.scene, small()).draw(head.pose).rgba;
+    };
+    TemporaryFolder folder;
+    const auto computed = drawn_with("off"), kept = drawn_with(folder.path().string());
+    EXPECT_EQ(folder.listing().size(), 3u);  // the folder, sky and paint
+    EXPECT_EQ(kept, computed);
+    EXPECT_EQ(drawn_with(folder.path().string()), computed);
 }
 
 TEST(OffscreenView, EglWithoutAGraphicsProcessorDrawsTheSameAsOsmesa) {

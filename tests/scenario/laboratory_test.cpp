@@ -11,7 +11,7 @@
 
 #include "message_of.h"
 #include "risorius/animate/frame_rows.h"
-#include "risorius/media/sha256.h"
+#include "risorius/core/sha256.h"
 #include "risorius/media/tone.h"
 #include "risorius/media/video_reader.h"
 #include "risorius/scene/face_oval.h"
@@ -195,18 +195,18 @@ TEST_F(Laboratory, FolderOfSomebodyElseIsLeftAsItIs) {
                              "stimuli/stim-mine_image.png", "index.html", "SHA256SUMS"}) {
         fs::create_directories((theirs / name).parent_path());
         std::ofstream(theirs / name) << R"({"Name": "theirs", "BIDSVersion": "1.10.0"})";
-        before[name] = media::sha256_of_file(theirs / name);
+        before[name] = sha256_of_file(theirs / name);
     }
     std::ofstream(theirs / "SHA256SUMS")
         << before["stimuli/stim-mine_image.png"] << "  stimuli/stim-mine_image.png\n";
-    before["SHA256SUMS"] = media::sha256_of_file(theirs / "SHA256SUMS");
+    before["SHA256SUMS"] = sha256_of_file(theirs / "SHA256SUMS");
     EXPECT_EQ(run("batch design.json -o study", folder->path()).code, 2);
     std::size_t files = 0;
     for (const auto& entry : fs::recursive_directory_iterator(theirs))
         files += entry.is_regular_file() ? 1 : 0;
     EXPECT_EQ(files, before.size());
     for (const auto& [name, sha256] : before)
-        EXPECT_EQ(media::sha256_of_file(theirs / name), sha256) << name;
+        EXPECT_EQ(sha256_of_file(theirs / name), sha256) << name;
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 #include "paths.h"
 #include "risorius/animate/animate.h"
 #include "risorius/core/error.h"
+#include "risorius/core/sha256.h"
 #include "risorius/media/image_file.h"
-#include "risorius/media/sha256.h"
 #include "risorius/media/video_reader.h"
 #include "risorius/track/channels.h"
 #include "scenario/run_program.h"
@@ -88,15 +88,15 @@ TEST(Render, LeavesAVideoARecordAndATable) {
     const Json json = Json::parse(text_of(folder / "hello.mp4.json"));
     EXPECT_EQ(json, record.json());
     EXPECT_EQ(json["format"], "risorius-run");
-    EXPECT_EQ(json["script"]["sha256"], media::sha256_of_file(options.script));
-    EXPECT_EQ(json["rig"]["sha256"], media::sha256_of_file(kRoot / "rigs/adult/rig.json"));
-    EXPECT_EQ(json["mesh"]["sha256"], media::sha256_of_file(kRoot / "models/adult/head.obj"));
+    EXPECT_EQ(json["script"]["sha256"], sha256_of_file(options.script));
+    EXPECT_EQ(json["rig"]["sha256"], sha256_of_file(kRoot / "rigs/adult/rig.json"));
+    EXPECT_EQ(json["mesh"]["sha256"], sha256_of_file(kRoot / "models/adult/head.obj"));
     ASSERT_EQ(json["tables"].size(), 9u);  // what the adult rig names
     std::set<std::string> tables;
     for (const Json& table : json["tables"]) {
         const fs::path file = table["file"].get<std::string>();
         tables.insert(file.filename().string());
-        EXPECT_EQ(table["sha256"], media::sha256_of_file(file));
+        EXPECT_EQ(table["sha256"], sha256_of_file(file));
     }
     EXPECT_TRUE(tables.count("facs.json") && tables.count("expressions.json"));
     EXPECT_EQ(json["frames"], 6);
@@ -163,7 +163,7 @@ TEST(Render, GivesTheSameFramesAgainAndForAnyNumberOfThreads) {
 
     // The hash is that of the pixels in a lossless file.
     media::VideoReader video(folder / "once.mkv");
-    media::Sha256 hash;
+    Sha256 hash;
     for (int frame = 0; frame < video.frames(); ++frame) {
         const Image image = video.frame(frame);
         hash.add(image.rgba.data(), image.rgba.size());

@@ -9,7 +9,7 @@
 
 #include "message_of.h"
 #include "risorius/core/output_set.h"
-#include "risorius/media/sha256.h"
+#include "risorius/core/sha256.h"
 #include "temporary_folder.h"
 
 namespace risorius::stimuli {
@@ -23,17 +23,16 @@ void write_set(const TemporaryFolder& folder) {
     nlohmann::ordered_json record{{"format", "risorius-clip"}, {"stim_id", "a"}};
     for (const char* file : {"code/scripts/a.json", "overview/a.png", "stimuli/stim-a_video.mp4"}) {
         write_file(folder / file, file);
-        record["files"][file] = media::sha256_of_file(folder / file);
+        record["files"][file] = sha256_of_file(folder / file);
     }
     write_file(folder / "stimuli/stim-a_video.json", record.dump());
     write_file(folder / "triggers.tsv", "triggers");
-    write_file(folder / "SHA256SUMS",
-               media::sha256_of_file(folder / "triggers.tsv") + "  triggers.tsv\n");
+    write_file(folder / "SHA256SUMS", sha256_of_file(folder / "triggers.tsv") + "  triggers.tsv\n");
 }
 
 void add_sum(const TemporaryFolder& folder, const std::string& file) {
     std::ofstream(folder / "SHA256SUMS", std::ios::app)
-        << media::sha256_of_file(folder / file) << "  " << file << "\n";
+        << sha256_of_file(folder / file) << "  " << file << "\n";
 }
 
 const Files kSet{"code/scripts/a.json", "overview/a.png", "stimuli/stim-a_video.json",
@@ -58,7 +57,7 @@ TEST(OwnFiles, AreNotThoseThatTheUserListsOrNamesAlike) {
     fs::copy_file(folder / "stimuli/stim-a_video.json", folder / "stimuli/stim-c_video.json");
     nlohmann::ordered_json record{{"format", "risorius-clip"}, {"stim_id", "d"}};
     for (const char* file : {"notes.txt", "../outside", "stimuli/stim-d_/../../notes.txt"})
-        record["files"][file] = media::sha256_of_file(folder / "notes.txt");
+        record["files"][file] = sha256_of_file(folder / "notes.txt");
     write_file(folder / "stimuli/stim-d_video.json", record.dump());
     Files expected = kSet;
     expected.insert("stimuli/stim-d_video.json");

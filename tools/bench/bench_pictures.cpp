@@ -8,10 +8,10 @@
 #include "risorius/animate/animate.h"
 #include "risorius/animate/render_job.h"
 #include "risorius/animate/run_render_job.h"
+#include "risorius/core/sha256.h"
 #include "risorius/face/face.h"
 #include "risorius/face/surfaces.h"
 #include "risorius/media/luminance.h"
-#include "risorius/media/sha256.h"
 #include "risorius/media/video_writer.h"
 #include "risorius/render/offscreen_view.h"
 #include "risorius/report/median.h"
@@ -55,7 +55,7 @@ Json stages(const animate::RenderJob& job) {
     std::vector<double> simulate, draw, read_back, measure;
     std::vector<Image> images;
     media::LuminanceMeter meter;
-    media::Sha256 hash;
+    Sha256 hash;
     face.start(drive);
     const auto ms = [](const auto& stopwatch) { return 1e3 * stopwatch.seconds(); };
     for (int frame = 0; frame < job.frames; ++frame) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "risorius/core/result_cache.h"
 #include "tools/risorius/stop_signals.h"
 
 namespace risorius::cli {
@@ -65,6 +66,10 @@ void ProgressBar::show(double fraction, const std::string& what) {
 void add_common(CLI::App& command, Common& common) {
     command.add_flag("--quiet", common.quiet, "Print errors only");
     command.add_flag("--json", common.json, "Print the report as JSON on standard output");
+    command.add_flag_callback(
+        "--no-cache", [] { use_result_cache(false); },
+        "Compute everything anew; neither use nor keep results of computations (see RISORIUS_CACHE "
+        "in the manual)");
 }
 
 }  // namespace risorius::cli

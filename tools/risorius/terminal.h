@@ -21,7 +21,7 @@ struct Common {
     bool json = false;   ///< the report as JSON on standard output
 };
 
-/// Adds --quiet and --json to a command.
+/// Adds --quiet, --json and --no-cache to a command. The last one acts at once.
 void add_common(CLI::App& command, Common& common);
 
 /// Shows progress on standard error for runs longer than two seconds. If standard error is not a terminal, it writes a line every

@@ -9,8 +9,8 @@
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/core/read_file.h"
+#include "risorius/core/sha256.h"
 #include "risorius/media/image_file.h"
-#include "risorius/media/sha256.h"
 #include "risorius/media/video_writer.h"
 #include "risorius/report/atomic_folder.h"
 #include "risorius/report/output_paths.h"
@@ -46,7 +46,7 @@ class Output {
             media::write_png16(still_, out_);
         else
             media::write_png(still_, out_);
-        return out_.has_filename() ? media::sha256_of_file(out_) : "";
+        return out_.has_filename() ? sha256_of_file(out_) : "";
     }
 
   private:

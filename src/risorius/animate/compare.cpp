@@ -9,7 +9,7 @@
 #include "risorius/core/input_log.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
-#include "risorius/media/sha256.h"
+#include "risorius/core/sha256.h"
 #include "risorius/media/video_reader.h"
 #include "risorius/media/video_writer.h"
 #include "risorius/render/lettering.h"
@@ -125,7 +125,7 @@ Json compare(const RenderRequest& left_request, const RenderRequest& right_reque
     json["left"] = results[0].record.json();
     json["right"] = results[1].record.json();
     video.finish();
-    if (!of_frames) json["out_sha256"] = media::sha256_of_file(out);
+    if (!of_frames) json["out_sha256"] = sha256_of_file(out);
     for (std::size_t side = 0; side < 2; ++side) write_file(table_text[side], results[side].table);
     write_file(record_text, json_text(json, 2) + "\n");
     monitor.report(1, "done");

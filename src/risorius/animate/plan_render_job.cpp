@@ -11,9 +11,9 @@
 #include "risorius/core/existing_file.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
+#include "risorius/core/sha256.h"
 #include "risorius/face/quality.h"
 #include "risorius/media/hdr_file.h"
-#include "risorius/media/sha256.h"
 #include "risorius/media/sync_marks.h"
 #include "risorius/report/output_paths.h"
 #include "risorius/report/stopwatch.h"
@@ -292,7 +292,7 @@ void plan_rig_and_script(const RenderRequest& request, const JsonCursor& script,
         talk::plan_speech(job.script.says, job.script.header, job.rig->files, inputs.mouth_poses());
     talk::add_to_script(job.speech, job.script);
     for (const fs::path& file : job.speech.files)
-        job.recordings.push_back({file, media::sha256_of_file(file)});
+        job.recordings.push_back({file, sha256_of_file(file)});
     if (request.against) {
         job.reference = track::read_script(inputs.script(*request.against)->json, channels,
                                            rig.facs, rig.expressions);
@@ -300,7 +300,7 @@ void plan_rig_and_script(const RenderRequest& request, const JsonCursor& script,
                                               job.rig->files, inputs.mouth_poses()),
                             *job.reference);
     }
-    if (request.shapes) job.shapes = {*request.shapes, media::sha256_of_file(*request.shapes)};
+    if (request.shapes) job.shapes = {*request.shapes, sha256_of_file(*request.shapes)};
 }
 
 }  // namespace

@@ -3,14 +3,14 @@
 
 #include "risorius/animate/detail/read_checksums.h"
 #include "risorius/core/json_text.h"
-#include "risorius/media/sha256.h"
+#include "risorius/core/sha256.h"
 
 namespace risorius::animate {
 
 namespace fs = std::filesystem;
 
 std::string sha256_of_text(const std::string& text) {
-    media::Sha256 hash;
+    Sha256 hash;
     hash.add(text.data(), text.size());
     return hash.finish();
 }

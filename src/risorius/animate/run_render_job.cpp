@@ -17,10 +17,10 @@
 #include "risorius/animate/detail/reference_run.h"
 #include "risorius/blendshapes/shape_player.h"
 #include "risorius/core/error.h"
+#include "risorius/core/sha256.h"
 #include "risorius/face/diagnostics.h"
 #include "risorius/face/face.h"
 #include "risorius/face/surfaces.h"
-#include "risorius/media/sha256.h"
 #include "risorius/render/gl_choice.h"
 #include "risorius/render/offscreen_view.h"
 #include "risorius/report/stopwatch.h"
@@ -308,7 +308,7 @@ class JobRun {
     std::optional<talk::SpeechColumns> speech_;
     FrameTable table_;
     MarkedPictures pictures_;
-    media::Sha256 hash_;
+    Sha256 hash_;
     int max_inverted_tets_ = 0;
     RenderResult result_;
 };

@@ -9,8 +9,8 @@
 #include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/core/output_set.h"
+#include "risorius/core/sha256.h"
 #include "risorius/media/image_file.h"
-#include "risorius/media/sha256.h"
 #include "risorius/report/contact_sheet.h"
 #include "risorius/report/output_paths.h"
 
@@ -163,7 +163,7 @@ Json make_sheet(const SheetOptions& options, const ProgressMonitor& monitor) {
     }
     sheet.rows.insert(sheet.rows.end(), others.begin(), others.end());
     media::write_png(report::draw_contact_sheet(sheet), out);
-    record["out_sha256"] = media::sha256_of_file(out);
+    record["out_sha256"] = sha256_of_file(out);
     write_file(record_text, json_text(record, 2) + "\n");
     monitor.throw_if_stopped();
     outputs.commit();

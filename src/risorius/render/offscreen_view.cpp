@@ -10,6 +10,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/known_names.h"
+#include "risorius/render/detail/baked_scene.h"
 #include "risorius/render/detail/bone_layer.h"
 #include "risorius/render/detail/camera.h"
 #include "risorius/render/detail/cell_clear.h"
@@ -75,14 +76,6 @@ Box skin_box(const Scene& scene) {
     return box;
 }
 
-/// Hair on the scalp would hide what lies below and is removed; the brows stay.
-Scene without_hair(Scene scene) {
-    scene.appearance.scalp_hair = scene.appearance.hair_length_mm =
-        scene.appearance.beard_length_mm = 0;
-    scene.appearance.hair_style = "shaven";
-    return scene;
-}
-
 std::vector<float> colours_of(const SkinValues& values) {
     std::vector<float> rgb;
     rgb.reserve(3 * values.at.size());
@@ -107,21 +100,6 @@ const std::vector<std::string>& show_names() {
 Show show_named(const std::string& name, const std::string& place) {
     return static_cast<Show>(index_of_name(place, name, show_names()));
 }
-
-/// Results of expensive precomputation, shared by all views of a scene.
-struct Baked {
-    /// Sky that each vertex sees, and whether the vertex is inside the mouth
-    std::vector<float> sky, inside;
-    std::optional<SkyAboutEyes> sky_about_eyes;
-    std::vector<Strand> hair;
-    bool mesh_lashes = true;
-    std::unique_ptr<OwnTextures> own;
-    GLuint paint_map = 0, pore_map = 0;
-    ~Baked() {  // runs in the context of the last view
-        glDeleteTextures(1, &paint_map);
-        glDeleteTextures(1, &pore_map);
-    }
-};
 
 struct OffscreenView::Impl {
     Impl(const Scene& scene, const ViewOptions& view_options, const Impl* first)
@@ -157,7 +135,7 @@ struct OffscreenView::Impl {
         if (options.show == Show::kSkull) bones = std::make_unique<BoneLayer>(scene);
         buffers = std::make_unique<SceneBuffers>(scene, camera.position, centre, coarseness());
 
-        baked = first ? first->baked : bake(scene, centre);
+        baked = first ? first->baked : bake_scene(scene, *buffers, marks, centre, bake_options());
         sky_about_eyes = baked->sky_about_eyes;
         buffers->set_occlusion(baked->sky, baked->inside);
         const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
@@ -226,56 +204,10 @@ struct OffscreenView::Impl {
                 .keeps_folds = !options.draft};
     }
 
-    std::shared_ptr<Baked> bake(const Scene& scene, const Vec3& centre) {
-        auto out = std::make_shared<Baked>();
-        const double reach = 0.75 * camera.portrait_height_m;
-        const auto sky_over = [&](const Points& positions) {
-            return sky_seen(positions, buffers->normals(), buffers->batches(), centre, reach);
-        };
-        // The skin has the finest folds, in nostrils and ears.
-        std::vector<unsigned> skin;
-        for (const Batch& batch : buffers->batches())
-            if (batch.material == Material::kSkin)
-                skin.insert(skin.end(), buffers->indices().begin() + batch.first_index,
-                            buffers->indices().begin() + batch.first_index + batch.index_count);
-        const auto smoothed = [&](const std::vector<float>& seen, const Points& positions) {
-            constexpr int kMoreOfSkin = 3;
-            return with_neighbours(
-                with_neighbours(seen, positions, buffers->normals(), buffers->indices(), 1),
-                positions, buffers->normals(), skin, kMoreOfSkin);
-        };
-        const std::vector<float> sky = sky_over(scene.rest);
-        out->sky = smoothed(sky, scene.rest);
-        out->inside = marks.inside_mouth(scene, sky);
-        if (scene.shut.rows() > 0) {
-            buffers->upload(scene.shut);
-            out->sky_about_eyes.emplace(scene, out->sky,
-                                        smoothed(sky_over(scene.shut), scene.shut));
-            buffers->upload(scene.rest);
-        }
-        const Scene shaved = options.show == Show::kMuscles ? without_hair(scene) : Scene{};
-        out->own = std::make_unique<OwnTextures>(scene, *buffers);
-        out->paint_map = paint_skin(options.show == Show::kMuscles ? shaved : scene, *buffers,
-                                    *out->own, centre, buffers->paintable_triangles(out->inside),
-                                    paint_side(options.height_px / camera.frame_height_m));
-        out->pore_map = make_pores(scene.appearance.seed);
-        grow_hair(scene, centre, *out);
-        finish_drawing();  // other contexts may read the maps from now on
-        return out;
-    }
-
-    /// The lash ribbons of the mesh are drawn only where no lashes can be generated.
-    void grow_hair(const Scene& scene, const Vec3& centre, Baked& out) const {
-        if (!has_own_skin(scene))
-            out.hair = plan_brows(scene, plan_skin(scene, centre), centre,
-                                  buffers->paintable_triangles(out.inside));
-        bool lashes = true;
-        for (const int eye : {0, 1}) {
-            const std::vector<Strand> some = plan_lashes(scene, eye);
-            lashes &= !some.empty();
-            out.hair.insert(out.hair.end(), some.begin(), some.end());
-        }
-        out.mesh_lashes = !lashes;
+    BakeOptions bake_options() const {
+        return {.sky_reach_m = 0.75 * camera.portrait_height_m,
+                .paint_side = paint_side(options.height_px / camera.frame_height_m),
+                .show_muscles = options.show == Show::kMuscles};
     }
 
     ~Impl() {
@@ -411,7 +343,7 @@ struct OffscreenView::Impl {
     /// Null unless the skin is shaded at fewer places than sampled
     std::unique_ptr<SkinLayer> skin_layer;
     std::unique_ptr<Framebuffer> target;
-    std::shared_ptr<Baked> baked;
+    std::shared_ptr<BakedScene> baked;
     /// A copy per view, because it caches the last result
     std::optional<SkyAboutEyes> sky_about_eyes;
     GLuint frame_buffer = 0;

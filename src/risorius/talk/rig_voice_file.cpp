@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/talk/rig_voice_file.h"
 
-#include <cstdlib>
 #include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
+#include "risorius/core/result_cache.h"
+#include "risorius/core/sha256.h"
 #include "risorius/face/quality.h"
-#include "risorius/media/sha256.h"
 
 namespace risorius::talk {
 
@@ -22,26 +22,23 @@ constexpr const char* kRecipe = "voice 5";
 
 /// Hash of everything that the poses depend on. Tables of expressions and wrinkles move no lip.
 std::string hash_of(const scene::RigFiles& files) {
-    media::Sha256 hash;
+    Sha256 hash;
     const auto add = [&](const std::string& text) { hash.add(text.data(), text.size()); };
     add(kRecipe);
-    add(media::sha256_of_file(files.file));
-    add(media::sha256_of_file(files.rig.mesh_file));
+    add(sha256_of_file(files.file));
+    add(sha256_of_file(files.rig.mesh_file));
     for (const fs::path& table : files.rig.table_files) {
         const std::string name = table.filename().string();
         if (name == "expressions.json" || name == "facs.json" || name == "wrinkles.json") continue;
-        add(media::sha256_of_file(table));
+        add(sha256_of_file(table));
     }
     return hash.finish();
 }
 
 /// Empty when there is no place for it.
 fs::path cache_file(const std::string& hash) {
-    const std::string name = hash + ".json";
-    const char* set = std::getenv("XDG_CACHE_HOME");
-    if (set && *set) return fs::path(set) / "risorius/voices" / name;
-    const char* home = std::getenv("HOME");
-    return home && *home ? fs::path(home) / ".cache/risorius/voices" / name : fs::path();
+    const fs::path cache = cache_folder();
+    return cache.empty() ? cache : cache / "voices" / (hash + ".json");
 }
 
 /// The poses in a file, when it is there and was made of this rig.

@@ -14,7 +14,7 @@ namespace risorius::talk {
 /// The file beside a rig: "rigs/adult/rig.voice.json" for "rigs/adult/rig.json".
 std::filesystem::path voice_file_of(const std::filesystem::path& rig_file);
 
-/// The poses of a rig: from the file beside it, else from the cache of the user ($XDG_CACHE_HOME/risorius/voices), else simulated and
+/// The poses of a rig: from the file beside it, else from the cache of the user (core/result_cache.h), else simulated and
 /// put into the cache. A file is used only when it was made of the same rig, mesh and tables; `report` is called while
 /// poses are simulated.
 RigVoice voice_of_rig(const scene::RigFiles& files,

@@ -2,7 +2,7 @@
 #include "risorius/animate/detail/read_checksums.h"
 
 #include "risorius/core/error.h"
-#include "risorius/media/sha256.h"
+#include "risorius/core/sha256.h"
 
 namespace risorius::animate {
 
@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 ReadChecksums::ReadChecksums()
     : observer_([this](const fs::path& file, const void* bytes, std::size_t size) {
-          media::Sha256 sha;
+          Sha256 sha;
           sha.add(bytes, size);
           note(file, sha.finish());
       }) {}
@@ -18,7 +18,7 @@ ReadChecksums::ReadChecksums()
 InputFile ReadChecksums::of(const fs::path& file) {
     const auto seen = sums_.find(file);
     if (seen != sums_.end()) return {file, seen->second};
-    const std::string sha256 = media::sha256_of_file(file);
+    const std::string sha256 = sha256_of_file(file);
     sums_.emplace(file, sha256);
     return {file, sha256};
 }

@@ -8,6 +8,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "risorius/core/result_cache.h"
 #include "risorius/geom/closest_point.h"
 #include "risorius/geom/decimate.h"
 #include "risorius/geom/mirror.h"
@@ -206,7 +207,7 @@ class ShellMaker {
     void keep_what_faces_outwards();
     void set_sizes();
     void decimate(int vertices);
-    Shell take(const Jaw& jaw);
+    Shell take() { return std::move(shell_); }
 
   private:
     Vec3 at(long v) const { return head_.vertices.row(v).transpose(); }
@@ -378,23 +379,54 @@ void ShellMaker::number_vertices(const geom::Decimated& coarse) {
     }
 }
 
-Shell ShellMaker::take(const Jaw& jaw) {
-    shell_.over_bite_m = bite_heights(head_, jaw, shell_);
-    return std::move(shell_);
+// The bindings name all members of a head, so that a new one does not compile until it is added here or left out on purpose.
+std::string key_of(const rig::Head& head, const std::array<EyeLids, 2>& lids,
+                   const ShellOptions& options) {
+    CacheKey key("face/anatomy/shell");
+    const auto& [frame, size, vertices, carrier, jaw_fraction, role_of_group, skin, lining, welded,
+                 landmarks, warped_landmarks, eyes, teeth_front_m, has_teeth] = head;
+    key.add(size).add(vertices).add(carrier).add(skin).add(lining).add(welded);
+    for (const auto& [id, place] : landmarks) key.add(id).add(place);
+    key.add(teeth_front_m).add(has_teeth);
+    for (const EyeLids& lid : lids) {
+        key.add(lid.centre()).add(lid.zone_m());
+        for (const std::vector<Vec3>* margin : {&lid.upper_margin(), &lid.lower_margin()})
+            for (const Vec3& p : *margin) key.add(p);
+    }
+    return key.add(options.vertices).finish();
 }
 
 }  // namespace
 
 Shell build_shell(const rig::Head& head, const Jaw& jaw, const std::array<EyeLids, 2>& lids,
                   const ShellOptions& options) {
-    ShellMaker maker(head, lids);
-    maker.choose_region();
-    maker.find_directions();
-    maker.make_directions_symmetric();
-    maker.keep_what_faces_outwards();
-    maker.set_sizes();
-    maker.decimate(options.vertices);
-    return maker.take(jaw);
+    Shell shell = cached_result(
+        key_of(head, lids, options),
+        [&] {
+            ShellMaker maker(head, lids);
+            maker.choose_region();
+            maker.find_directions();
+            maker.make_directions_symmetric();
+            maker.keep_what_faces_outwards();
+            maker.set_sizes();
+            maker.decimate(options.vertices);
+            return maker.take();
+        },
+        [](Shell& of, const auto& visit) {
+            auto& [fine, direction, vertex, triangles, collapsed_to, fixed, spacing_m, over_bite_m,
+                   mirrored] = of;
+            visit(fine);
+            visit(direction);
+            visit(vertex);
+            visit(triangles);
+            visit(collapsed_to);
+            visit(fixed);
+            visit(spacing_m);
+            visit(over_bite_m);
+            visit(mirrored);
+        });
+    shell.over_bite_m = bite_heights(head, jaw, shell);
+    return shell;
 }
 
 Shell without_vertices(const Shell& shell, const rig::Head& head, const std::vector<char>& gone) {

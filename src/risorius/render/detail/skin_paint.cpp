@@ -116,9 +116,8 @@ int paint_side(double pixels_per_metre) {
     return side;
 }
 
-GLuint paint_skin(const Scene& scene, const SceneBuffers& buffers, const OwnTextures& own,
-                  const Vec3& centre, const std::vector<unsigned>& triangles, int side) {
-    GLuint map = 0, depth = 0, framebuffer = 0, elements = 0;
+GLuint make_paint_map(int side, const std::vector<std::uint8_t>& texels) {
+    GLuint map = 0;
     glGenTextures(1, &map);
     glBindTexture(GL_TEXTURE_2D, map);
     int levels = 1;
@@ -128,12 +127,24 @@ GLuint paint_skin(const Scene& scene, const SceneBuffers& buffers, const OwnText
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, side, side, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
+    glGenerateMipmap(GL_TEXTURE_2D);
+    return map;
+}
+
+std::vector<std::uint8_t> paint_skin(const Scene& scene, const SceneBuffers& buffers,
+                                     const OwnTextures& own, const Vec3& centre,
+                                     const std::vector<unsigned>& triangles, int side) {
+    GLuint colour = 0, depth = 0, framebuffer = 0, elements = 0;
+    glGenRenderbuffers(1, &colour);
+    glBindRenderbuffer(GL_RENDERBUFFER, colour);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, side, side);
     glGenRenderbuffers(1, &depth);
     glBindRenderbuffer(GL_RENDERBUFFER, depth);
     glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, side, side);
     glGenFramebuffers(1, &framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, map, 0);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
 
     const SkinPlan plan = plan_skin(scene, centre);
@@ -176,13 +187,15 @@ GLuint paint_skin(const Scene& scene, const SceneBuffers& buffers, const OwnText
     if (!has_own_skin(scene)) draw_strokes(plan_strokes(scene, plan, centre, triangles));
     glEnable(GL_DEPTH_TEST);
 
+    std::vector<std::uint8_t> texels(4 * static_cast<std::size_t>(side) *
+                                     static_cast<std::size_t>(side));
+    glReadPixels(0, 0, side, side, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
     glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, map);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glDeleteFramebuffers(1, &framebuffer);
+    glDeleteRenderbuffers(1, &colour);
     glDeleteRenderbuffers(1, &depth);
-    glGenerateMipmap(GL_TEXTURE_2D);
-    return map;
+    return texels;
 }
 
 GLuint make_pores(unsigned seed) {

@@ -6,6 +6,7 @@
 /// centre. It needs no texture coordinates and has no seam on the face. It is evaluated at rest, so the paint sticks to the skin.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "risorius/render/detail/gl.h"
@@ -27,11 +28,15 @@ Vec3 paint_centre(const Scene& scene, const Vec3& skin_min, const Vec3& skin_max
 constexpr int kMinPaintSide = 256, kMaxPaintSide = 4096;
 int paint_side(double pixels_per_metre);
 
-/// Draws the map from the bound vertex array of the buffers and the given triangles of the scene. Returns a mip-mapped texture:
-/// rgb is the square root of the linear albedo, and alpha is the amount of oil, which makes skin glossy. The context must be
-/// current.
-GLuint paint_skin(const Scene& scene, const SceneBuffers& buffers, const OwnTextures& own,
-                  const Vec3& centre, const std::vector<unsigned>& triangles, int side);
+/// Draws the map from the bound vertex array of the buffers and the given triangles of the scene. Returns side x side x 4 bytes, rows
+/// from the bottom: rgb is the square root of the linear albedo, and alpha is the amount of oil, which makes skin glossy. The
+/// context must be current.
+std::vector<std::uint8_t> paint_skin(const Scene& scene, const SceneBuffers& buffers,
+                                     const OwnTextures& own, const Vec3& centre,
+                                     const std::vector<unsigned>& triangles, int side);
+
+/// Makes the mip-mapped texture of a map. The context must be current.
+GLuint make_paint_map(int side, const std::vector<std::uint8_t>& texels);
 
 /// Makes a texture of pores that can be repeated. It holds the slopes of the surface in two directions, with 0.5 for zero.
 GLuint make_pores(unsigned seed);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "risorius/core/counter_rng.h"
+#include "risorius/render/detail/gl_context.h"
 
 namespace risorius::render {
 

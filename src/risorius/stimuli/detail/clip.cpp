@@ -15,9 +15,9 @@
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/core/read_file.h"
+#include "risorius/core/sha256.h"
 #include "risorius/core/version.h"
 #include "risorius/media/image_file.h"
-#include "risorius/media/sha256.h"
 #include "risorius/media/sync_marks.h"
 #include "risorius/media/video_reader.h"
 #include "risorius/media/video_writer.h"
@@ -219,7 +219,7 @@ std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256
         const fs::path file = condition.script.at(key).get<std::string>();
         if (key.to_string() != "/rig")
             rendered["files"].push_back(
-                media::sha256_of_file(file.is_relative() ? condition.folder / file : file));
+                sha256_of_file(file.is_relative() ? condition.folder / file : file));
     }
     return animate::sha256_of_text(json_text(rendered));
 }
@@ -328,7 +328,7 @@ bool is_made(const ClipPlan& plan, const fs::path& folder) {
         if (record.value("content_sha256", "") != plan.content_sha256) return false;
         for (const fs::path& file : files.listed())
             if (!fs::exists(folder / file) || record.at("files").value(file.generic_string(), "") !=
-                                                  media::sha256_of_file(folder / file))
+                                                  sha256_of_file(folder / file))
                 return false;
         return true;
     } catch (const std::exception&) {
@@ -520,7 +520,7 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
                          written[files.sound]);
     Json record = sidecar_of(plan, std::move(shown), pictures);
     for (const fs::path& file : files.listed())
-        record["files"][file.generic_string()] = media::sha256_of_file(written[file]);
+        record["files"][file.generic_string()] = sha256_of_file(written[file]);
     write_file(sidecar, json_text(record, 2) + "\n");
     worker.monitor.throw_if_stopped();
     outputs.commit();

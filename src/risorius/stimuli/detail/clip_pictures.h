@@ -8,9 +8,9 @@
 
 #include "risorius/animate/frame_rows.h"
 #include "risorius/core/image.h"
+#include "risorius/core/sha256.h"
 #include "risorius/media/luminance.h"
 #include "risorius/media/phase_scramble.h"
-#include "risorius/media/sha256.h"
 #include "risorius/media/tone.h"
 #include "risorius/media/video_writer.h"
 #include "risorius/stimuli/detail/clip.h"
@@ -87,7 +87,7 @@ class ClipPictures {
         first_;  ///< luminance of the first picture; -1 where it shows the background
     std::optional<int> pixel_onset_;
     std::vector<Image> held_, thumbs_;
-    media::Sha256 hash_;
+    Sha256 hash_;
 };
 
 /// Returns the table of the clip, with one row per frame of the clip.

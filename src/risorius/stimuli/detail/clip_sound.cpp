@@ -5,7 +5,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_cursor.h"
-#include "risorius/media/sha256.h"
+#include "risorius/core/sha256.h"
 
 namespace risorius::stimuli {
 
@@ -27,7 +27,7 @@ ClipSound SoundPlans::at(const design::Condition& condition, double duration_s,
     const media::Recording recording = media::open_recording(*condition.audio);
     ClipSound out;
     out.file = *condition.audio;
-    out.sha256 = media::sha256_of_file(file);
+    out.sha256 = sha256_of_file(file);
     const double length_s = static_cast<double>(recording.length()) / recording.rate_hz;
     if (condition.audio_start_s >= duration_s || condition.audio_start_s + length_s <= 0)
         throw Error(place, "an audio_start_s with which the clip contains some of the recording",

@@ -12,7 +12,7 @@
 #include "risorius/core/input_log.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/read_file.h"
-#include "risorius/media/sha256.h"
+#include "risorius/core/sha256.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
 
 namespace risorius::stimuli {
@@ -62,7 +62,7 @@ bool is_plain_file(const fs::path& folder, const fs::path& relative) {
 }
 
 bool has_bytes(const fs::path& folder, const fs::path& relative, const std::string& sha256) {
-    return is_plain_file(folder, relative) && media::sha256_of_file(folder / relative) == sha256;
+    return is_plain_file(folder, relative) && sha256_of_file(folder / relative) == sha256;
 }
 
 /// The names of the files in a folder below that is no link, sorted.

@@ -9,8 +9,8 @@
 #include "risorius/core/input_log.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
+#include "risorius/core/sha256.h"
 #include "risorius/core/version.h"
-#include "risorius/media/sha256.h"
 #include "risorius/plot/write_chart.h"
 #include "risorius/report/html_writer.h"
 #include "risorius/stimuli/detail/catalogue.h"
@@ -208,8 +208,8 @@ std::vector<std::string> write_set(const BatchPlan& plan, const BatchOptions& op
     std::string sums;
     for (const fs::path& file : files) {
         const auto written = fresh.find(file);
-        sums += media::sha256_of_file(written == fresh.end() ? folder / file : written->second) +
-                "  " + file.generic_string() + "\n";
+        sums += sha256_of_file(written == fresh.end() ? folder / file : written->second) + "  " +
+                file.generic_string() + "\n";
     }
     write_file(outputs.file(folder / "SHA256SUMS"), sums);
     monitor.throw_if_stopped();

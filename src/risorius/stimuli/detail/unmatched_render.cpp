@@ -9,7 +9,7 @@
 #include "risorius/core/input_log.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
-#include "risorius/media/sha256.h"
+#include "risorius/core/sha256.h"
 #include "risorius/media/video_reader.h"
 #include "risorius/scene/face_oval.h"
 
@@ -38,8 +38,8 @@ std::optional<UnmatchedRender> complete_render(const ClipPlan& plan, const std::
         UnmatchedRender render;
         render.video = folder / intermediate_file(clip, ".mkv", below);
         const fs::path table = folder / intermediate_file(clip, ".tsv", below);
-        if (record.at("video_sha256") != media::sha256_of_file(render.video) ||
-            record.at("table_sha256") != media::sha256_of_file(table))
+        if (record.at("video_sha256") != sha256_of_file(render.video) ||
+            record.at("table_sha256") != sha256_of_file(table))
             return {};
         render.run = record.at("run");
         render.table = text_of_file(table);
@@ -126,8 +126,8 @@ void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker) {
         measured.colours.add(picture, weights);
     }
     write_file(record_file, json_text(Json{{"film_sha256", plan.render_sha256},
-                                           {"video_sha256", media::sha256_of_file(video_file)},
-                                           {"table_sha256", media::sha256_of_file(table_file)},
+                                           {"video_sha256", sha256_of_file(video_file)},
+                                           {"table_sha256", sha256_of_file(table_file)},
                                            {"luminance", json_of(measured.sums)},
                                            {"colours", measured.colours.text()},
                                            {"run", portable_record(result.record)}},

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // SHA-256, compared with the vectors of FIPS 180-4 and NIST's example file.
-#include "risorius/media/sha256.h"
+#include "risorius/core/sha256.h"
 
 #include <gtest/gtest.h>
 
 #include "media/pictures.h"
 #include "risorius/core/error.h"
 
-namespace risorius::media {
+namespace risorius {
 namespace {
 
 std::string sha256(const std::string& text) {
@@ -55,4 +55,4 @@ TEST(Sha256, OfAMissingFileSaysSo) {
 }
 
 }  // namespace
-}  // namespace risorius::media
+}  // namespace risorius

@@ -8,13 +8,14 @@
 #include <memory>
 #include <string>
 
-namespace risorius::media {
+namespace risorius {
 
 /// Computes the checksum of bytes that are added in pieces.
 class Sha256 {
   public:
     Sha256();
     ~Sha256();
+    Sha256(Sha256&&) noexcept;
     void add(const void* bytes, std::size_t count);
     std::string finish();  ///< 64 hexadecimal digits
 
@@ -26,4 +27,4 @@ class Sha256 {
 /// Returns the checksum of a file. Throws Error when it cannot be read.
 std::string sha256_of_file(const std::filesystem::path& file);
 
-}  // namespace risorius::media
+}  // namespace risorius

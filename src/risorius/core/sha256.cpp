@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/media/sha256.h"
+#include "risorius/core/sha256.h"
 
 #include <openssl/evp.h>
 
@@ -11,7 +11,7 @@
 #include "risorius/core/file_reader.h"
 #include "risorius/core/input_log.h"
 
-namespace risorius::media {
+namespace risorius {
 
 struct Sha256::Impl {
     std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
@@ -24,6 +24,7 @@ struct Sha256::Impl {
 
 Sha256::Sha256() : impl_(std::make_unique<Impl>()) {}
 Sha256::~Sha256() = default;
+Sha256::Sha256(Sha256&&) noexcept = default;
 
 void Sha256::add(const void* bytes, std::size_t count) {
     Impl::check(EVP_DigestUpdate(impl_->context.get(), bytes, count));
@@ -57,4 +58,4 @@ std::string sha256_of_file(const std::filesystem::path& file) {
     return sha.finish();
 }
 
-}  // namespace risorius::media
+}  // namespace risorius
