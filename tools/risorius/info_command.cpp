@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// risorius info RIG
+// risorius info FILE: of a rig or of blend shapes
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/json_text.h"
 #include "tools/risorius/commands.h"
 #include "tools/risorius/rig_info.h"
+#include "tools/risorius/shapes_info.h"
 
 namespace risorius::cli {
 
@@ -13,7 +14,7 @@ namespace {
 
 struct InfoArguments {
     Common common;
-    std::filesystem::path rig;
+    std::filesystem::path file;
 };
 
 void print_rig(const Json& info) {
@@ -55,23 +56,36 @@ void print_rig(const Json& info) {
                     channel["min"].get<double>(), channel["max"].get<double>());
 }
 
+void print_shape_list(const Json& info) {
+    std::printf("%s: %d vertices, %d shapes\n\n%-32s %10s %10s\n",
+                info["file"].get<std::string>().c_str(), info["vertices"].get<int>(),
+                static_cast<int>(info["shapes"].size()), "Shape", "vertices", "at most");
+    for (const Json& shape : info["shapes"])
+        std::printf("%-32s %10d %7.2f mm\n", shape["name"].get<std::string>().c_str(),
+                    shape["vertices"].get<int>(), shape["largest_mm"].get<double>());
+}
+
 void run(const InfoArguments& arguments) {
-    const Json info = cli::rig_info(arguments.rig);
+    const bool shapes =
+        arguments.file.extension() == ".glb" || arguments.file.extension() == ".gltf";
+    const Json info = shapes ? shapes_info(arguments.file) : rig_info(arguments.file);
     if (arguments.common.json)
         std::printf("%s\n", json_text(info, 2).c_str());
     else if (!arguments.common.quiet)
-        print_rig(info);
+        shapes ? print_shape_list(info) : print_rig(info);
 }
 
 }  // namespace
 
 void add_info(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("info", "Print channels, muscles, parts and sizes of a rig");
+    CLI::App* command = app.add_subcommand(
+        "info", "Print channels, muscles, parts and sizes of a rig, or the blend shapes of a .glb");
     auto arguments = std::make_shared<InfoArguments>();
-    command->add_option("RIG", arguments->rig, "The rig")->required();
+    command->add_option("FILE", arguments->file, "A rig, or a glTF file with blend shapes")
+        ->required();
     add_common(*command, arguments->common);
-    command->footer("Example:\n  risorius info rigs/adult/rig.json");
+    command->footer(
+        "Example:\n  risorius info rigs/adult/rig.json\n  risorius info adult/shapes.glb");
     command->callback([arguments] { run(*arguments); });
 }
 
