@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -23,12 +24,14 @@
 #include "risorius/media/detail/sound.h"
 #include "risorius/media/hdr_file.h"
 #include "risorius/media/picture_file.h"
+#include "risorius/motion/detail/recorded_motion.h"
 #include "risorius/rig/rig_description.h"
 #include "risorius/signal/recording.h"
 #include "risorius/speech/labels.h"
 #include "risorius/speech/phone_table.h"
 #include "risorius/speech/utterance.h"
 #include "risorius/track/script.h"
+#include "risorius/view/document.h"
 #include "temporary_folder.h"
 #include "track/standard_tables.h"
 
@@ -287,6 +290,40 @@ void read_shapes_table(const std::uint8_t* data, std::size_t size, Digest& diges
     }
 }
 
+/// As a file of each format, whatever its header says.
+void read_motion(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    const fs::path file = file_of("motion", data, size);
+    for (const std::string& format : motion::motion_formats()) try {
+            const motion::RecordedMotion read = motion::read_motion(file, {.as = format});
+            digest.add(read.times_s);
+            for (const motion::RecordedTrack& track : read.tracks) {
+                digest.add(track.channel);
+                digest.add(track.values);
+            }
+            for (const std::string& name : read.unmapped) digest.add(name);
+        } catch (const Error&) {
+        }
+}
+
+/// Operations of the studio on a small script. Undo gives the script back.
+void make_edits(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    const JsonCursor json = parse_json_text(text_of(data, size), "edits.json");
+    const JsonCursor script = parse_json_text(
+        R"({"duration_s": 2, "a/b": [1, [2]], "channels": {"AU12": {"keys": [[0, 0], [1, 1]]}},
+            "expressions": [{"expression": "happiness", "start_s": 0.5, "intensity": 1}]})",
+        "script.json");
+    view::Document document(script.json());
+    const std::string before = document.text();
+    for (const JsonCursor& item : json.items()) try {
+            document.edit({view::read_operation(item)});
+        } catch (const Error&) {
+        }
+    digest.add(document.text());
+    while (document.undo()) {
+    }
+    if (document.text() != before) std::abort();
+}
+
 constexpr char kObj[] = "input.obj", kGlb[] = "input.glb", kGltf[] = "input.gltf";
 
 }  // namespace
@@ -300,17 +337,18 @@ void Digest::add(const void* bytes, std::size_t size) {
 
 const std::vector<Target>& targets() {
     static const std::vector<Target> list{
-        {"json", read_json},          {"script", read_script},
-        {"design", read_design},      {"arithmetic", read_arithmetic},
-        {"table", read_table},        {"recording", read_recording},
-        {"obj", read_mesh<kObj>},     {"mtl", read_materials},
-        {"glb", read_mesh<kGlb>},     {"gltf", read_mesh<kGltf>},
-        {"shapes", read_shapes},      {"mesh_message", read_message},
-        {"hdr", read_light},          {"picture", read_picture},
-        {"sound", read_sound},        {"landmarks", read_landmarks},
-        {"identity", read_identity},  {"shapes_table", read_shapes_table},
-        {"textgrid", read_textgrid},  {"labels", read_labels},
-        {"utterance", read_utterance}};
+        {"json", read_json},           {"script", read_script},
+        {"design", read_design},       {"arithmetic", read_arithmetic},
+        {"table", read_table},         {"recording", read_recording},
+        {"obj", read_mesh<kObj>},      {"mtl", read_materials},
+        {"glb", read_mesh<kGlb>},      {"gltf", read_mesh<kGltf>},
+        {"shapes", read_shapes},       {"mesh_message", read_message},
+        {"hdr", read_light},           {"picture", read_picture},
+        {"sound", read_sound},         {"landmarks", read_landmarks},
+        {"identity", read_identity},   {"shapes_table", read_shapes_table},
+        {"textgrid", read_textgrid},   {"labels", read_labels},
+        {"utterance", read_utterance}, {"motion", read_motion},
+        {"edits", make_edits}};
     return list;
 }
 
