@@ -48,8 +48,8 @@ Json edited(Json script, const Json& edits) {
 
 PlannedSpeech planned(const Json& script, const scene::RigFiles& files,
                       track::ScriptDescription& read) {
-    read = track::read_script(JsonCursor::from_json(script, "script.json"),
-                              files.rig.channels(), files.rig.facs, files.rig.expressions);
+    read = track::read_script(JsonCursor::from_json(script, "script.json"), files.rig.channels(),
+                              files.rig.facs, files.rig.expressions);
     PlannedSpeech out = plan_speech(read.says, read.header, files);
     add_to_script(out, read);
     return out;
