@@ -9,6 +9,7 @@ import { RemoteEngine } from "./engine.js";
 import { activationColour } from "./head.js";
 import type { Sight } from "./head.js";
 import type { Binary, DocumentMessage, Pose, Scene, State, Vec, Welcome } from "./protocol.js";
+import { SpeechSound } from "./speech.js";
 import { Stage } from "./stage.js";
 import { Timeline } from "./timeline.js";
 
@@ -70,6 +71,8 @@ const timeline = new Timeline(byId("timeline"), {
   say: (text) => (byId("twin").textContent = text),
 });
 
+const speech = new SpeechSound();
+
 // What the engine says
 
 function takeWelcome(message: Welcome): void {
@@ -80,7 +83,7 @@ function takeWelcome(message: Welcome): void {
   channels.use(message);
   timeline.useChannels(message.channels);
   const add = byId<HTMLSelectElement>("add");
-  add.replaceChildren(h("option", { value: "" }, "event…"), h("option", { value: "blink" }, "blink"));
+  add.replaceChildren(h("option", { value: "" }, "event…"), h("option", { value: "blink" }, "blink"), h("option", { value: "say" }, "say a text…"));
   for (const { name } of message.expressions) add.append(h("option", { value: `expression ${name}` }, name.replaceAll("_", " ")));
   if (!message.steers) say("Another page steers; this one looks.");
 }
@@ -136,6 +139,7 @@ function takeState(message: State): void {
   connection.classList.toggle("late", late);
   channels.useState(message);
   timeline.useState(message);
+  speech.follow(message.t_s, message.playing);
   stage.showPulls(message.pulls);
   if (message.resting || !message.playing) describe(message);
 }
@@ -168,6 +172,9 @@ function takeBinary(message: Binary): void {
       stage.head?.usePicture(message.picture);
       stage.changed();
       break;
+    case "sound":
+      void speech.use(message.bytes);
+      break;
     case "muscles":
       stage.head?.useMuscles(message.muscles);
       break;
@@ -188,6 +195,7 @@ function takeOther(message: Record<string, any>): void {
     if (welcome) welcome.file = message.path;
     say(`Saved ${message.path}`, true);
   }
+  if (message.type === "sound") speech.expect(Number(message.start_s));
   if (message.type === "steers") say("This page steers now.", true);
   if (message.type === "files") showFiles(message.scripts, message.samples);
 }
@@ -291,6 +299,13 @@ function showFiles(scripts: string[], samples: string[]): void {
 
 function addEvent(choice: string): void {
   if (!choice || !script || !state) return;
+  if (choice === "say") {
+    // Browsers let a page sound only after a gesture: this is one.
+    speech.allow();
+    byId<HTMLDialogElement>("say-dialog").showModal();
+    byId<HTMLInputElement>("say-text").select();
+    return;
+  }
   const start_s = Math.round(state.t_s * 1000) / 1000;
   const event = choice === "blink" ? { blink: {}, start_s } : { expression: choice.slice("expression ".length), start_s };
   const events = script.script.events;
@@ -337,6 +352,11 @@ on("add", "change", () => {
   addEvent(select.value);
   select.value = "";
 });
+byId<HTMLDialogElement>("say-dialog").addEventListener("close", () => {
+  if (byId<HTMLDialogElement>("say-dialog").returnValue !== "say") return;
+  speech.allow();
+  engine.send({ type: "say", text: byId<HTMLInputElement>("say-text").value, voice: byId<HTMLInputElement>("say-voice").value });
+});
 byId<HTMLDialogElement>("save-dialog").addEventListener("close", () => {
   const dialog = byId<HTMLDialogElement>("save-dialog");
   if (dialog.returnValue !== "save") return;
@@ -380,4 +400,4 @@ window.addEventListener("beforeunload", (event) => {
 });
 
 // For tests: where a vertex is on the screen.
-(window as any).studio = { screenOf: (vertex: number) => stage.screenOf(vertex), scene: () => scene, state: () => state, script: () => script };
+(window as any).studio = { screenOf: (vertex: number) => stage.screenOf(vertex), scene: () => scene, state: () => state, script: () => script, sounds: () => speech.sounds };

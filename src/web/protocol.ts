@@ -153,13 +153,15 @@ const enum Kind {
   scene = 2,
   picture = 3,
   muscles = 4,
+  sound = 0x46464952, // "RIFF": a WAV file as it is
 }
 
 export type Binary =
   | { kind: "pose"; pose: Pose }
   | { kind: "scene"; scene: Scene }
   | { kind: "picture"; picture: Picture }
-  | { kind: "muscles"; muscles: Muscles };
+  | { kind: "muscles"; muscles: Muscles }
+  | { kind: "sound"; bytes: ArrayBuffer };
 
 interface Place {
   at: number;
@@ -195,6 +197,7 @@ export function decode(data: ArrayBuffer): Binary {
   const view = new DataView(data);
   if (view.getUint8(0) === 1) return { kind: "pose", pose: decodePose(data) };
   const kind = view.getUint32(0, true);
+  if (kind === Kind.sound) return { kind: "sound", bytes: data };
   const length = view.getUint32(4, true);
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 8, length)));
   const begin = 8 + length;

@@ -182,6 +182,32 @@ await test("it plays to the end, and seeks", async () => {
   await until(page, () => Math.abs(window.studio.state().t_s - 1 / 60) < 1e-6);
 });
 
+await test("it says a text at once, with its sound", async () => {
+  const events = (await scriptOf(page)).events.length;
+  await page.keyboard.press("Home");
+  await until(page, () => window.studio.state().t_s === 0);
+  await page.locator("#add").selectOption("say");
+  await page.locator("#say-text").fill("Good morning.");
+  await shot(page, "say");
+  const begin = Date.now();
+  await page.locator("#say-form button.primary").click();
+  await page.waitForFunction(() => window.studio.state().playing || !document.querySelector("#message").hidden);
+  if (!(await state(page)).playing) {
+    // Here is no voice; the page says which package is missing.
+    assert.match(await page.locator("#message").textContent(), /risorius-voice-espeak|setup/);
+    return;
+  }
+  console.log(`      from the text to the first pose: ${Date.now() - begin} ms`);
+  await until(page, () => window.studio.sounds());
+  const said = (await scriptOf(page)).events[events];
+  assert.equal(said.say, "Good morning.");
+  assert.ok((await scriptOf(page)).duration_s > 1);
+  await until(page, () => !window.studio.state().playing);
+  assert.ok(!(await page.evaluate(() => window.studio.sounds())));
+  await page.keyboard.press("Control+z");
+  await until(page, (n) => window.studio.script().script.events.length === n, events);
+});
+
 await test("the sights show muscles and strain", async () => {
   for (const sight of ["muscles", "strain", "wire", "skin"]) {
     await page.locator("#sight").selectOption(sight);

@@ -70,8 +70,9 @@ void add_compare(CLI::App& app) {
                         "half of the picture");
     command->add_option("--fps", options.fps,
                         "Frames per second instead of the script's, 1 to 240");
-    command->add_option("--show", options.show,
-                        "What to show: skin, muscles, skull, wire, strain or landmarks");
+    command->add_option(
+        "--show", options.show,
+        "What to show: skin, muscles, skull, wire, strain, landmarks or articulation");
     add_view(*command, options, arguments->size);
     add_coding(*command, options);
     add_common(*command, arguments->common);

@@ -88,10 +88,12 @@ void add_render(CLI::App& app) {
                         "shapes and correctives, without simulation");
     command->add_option("--fps", options.fps,
                         "Frames per second instead of the script's, 1 to 240");
-    command->add_option("--show", options.show,
-                        "What to show: skin; muscles, coloured by activation under translucent "
-                        "skin; skull; wire, the edges of the mesh; strain of the skin; error, the "
-                        "distance from the face of another script; landmarks");
+    command->add_option(
+        "--show", options.show,
+        "What to show: skin; muscles, coloured by activation under translucent "
+        "skin; skull; wire, the edges of the mesh; strain of the skin; error, the "
+        "distance from the face of another script; landmarks; articulation, the mouth "
+        "in section");
     command->add_option("--against", options.against,
                         "With --show error: the script to compare with");
     command->add_option("--scale", options.scale,

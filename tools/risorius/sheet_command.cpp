@@ -67,8 +67,9 @@ void add_sheet(CLI::App& app) {
             "PNG pictures to compare with, separated by commas; each gets a row of its own")
         ->delimiter(',')
         ->allow_extra_args(false);
-    command->add_option("--show", options.view.show,
-                        "What to show: skin, muscles, skull, wire, strain or landmarks");
+    command->add_option(
+        "--show", options.view.show,
+        "What to show: skin, muscles, skull, wire, strain, landmarks or articulation");
     add_view(*command, options.view, arguments->size);
     command->get_option("--size")
         ->description("Size of one picture in pixels")

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/animate/animate.h"
+#include "risorius/blendshapes/live_link.h"
 #include "risorius/core/data_folder.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
@@ -65,7 +66,7 @@ bool is_better(const talk::CheckedSpeech& one, const talk::CheckedSpeech& other)
 void render_speech(SpeakArguments& arguments, talk::SpokenResult& result,
                    const speech::PhoneTable& table) {
     const fs::path out = arguments.render.out;
-    const bool only_script = out.extension() == ".json";
+    const bool only_script = out.extension() == ".json", live_link = out.extension() == ".csv";
     const fs::path script_file = only_script ? out : beside(out, ".script.json");
     talk::SpeakScriptOptions options;
     // An utterance that was given stays where it is.
@@ -118,6 +119,9 @@ void render_speech(SpeakArguments& arguments, talk::SpokenResult& result,
         std::printf("closures of the lips: %d, reached %d, held %d\n", checked.total,
                     checked.reached, checked.held);
     if (only_script) return;
+    if (live_link)
+        return write_text(out, blendshapes::live_link_of_script(
+                                   script_file, files, animate::quality_of(arguments.render)));
     arguments.render.script = script_file;
     arguments.render.rig.reset();
     finish_view(arguments.render, arguments.size);
@@ -157,7 +161,9 @@ void add_speak(CLI::App& app) {
             "ends in /: the talking face, with its script, utterance and sound beside "
             "it; .json: the script alone; .utterance.json: phones in samples, with "
             "the sound beside it; .TextGrid, .ctm, .lab, .vtt: labels; .tsv: mouth shapes of "
-            "Rhubarb; .curves.tsv: curves of jaw, lips and tongue")
+            "Rhubarb; .visemes.json: those of Oculus as a list and as weights over time; .csv: "
+            "weights of the shapes of ARKit, as Live Link Face records them; .curves.tsv: curves "
+            "of jaw, lips and tongue")
         ->required();
     command
         ->add_option("--voice", input.voice.language,

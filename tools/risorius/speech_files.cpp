@@ -8,6 +8,7 @@
 #include "risorius/core/text_lines.h"
 #include "risorius/media/mono_sound.h"
 #include "risorius/speech/labels.h"
+#include "risorius/speech/visemes.h"
 
 namespace risorius::cli {
 
@@ -18,8 +19,9 @@ namespace {
 constexpr FileKind kText{"a text", kMegabyte};
 constexpr std::size_t kLongestName = 4000;
 constexpr std::string_view kUtterance = ".utterance.json";
-constexpr std::array<std::string_view, 7> kEndings{kUtterance, ".TextGrid",   ".ctm", ".lab",
-                                                   ".vtt",     ".curves.tsv", ".tsv"};
+constexpr std::string_view kVisemes = ".visemes.json";
+constexpr std::array<std::string_view, 8> kEndings{kUtterance, ".TextGrid",   ".ctm", ".lab",
+                                                   ".vtt",     ".curves.tsv", ".tsv", kVisemes};
 
 std::string text_of(std::string_view ending, const speech::Utterance& utterance,
                     const speech::PhoneTable& table) {
@@ -27,6 +29,7 @@ std::string text_of(std::string_view ending, const speech::Utterance& utterance,
     if (ending == ".ctm") return speech::ctm_text(utterance);
     if (ending == ".lab") return speech::htk_text(utterance);
     if (ending == ".vtt") return speech::webvtt_text(utterance);
+    if (ending == kVisemes) return speech::visemes_text(utterance, table);
     if (ending == ".curves.tsv") return talk::curves_text(utterance, table);
     return speech::rhubarb_text(utterance, table);
 }

@@ -24,7 +24,8 @@ void write_text(const std::filesystem::path& file, const std::string& text);
 /// Writes the utterance beside `out`, and the sound of a voice; the utterance names its sound. Returns the utterance's path.
 std::filesystem::path write_utterance(talk::SpokenResult& result, const std::filesystem::path& out);
 
-/// Whether a file holds what is said as text, by its ending: .utterance.json, .TextGrid, .ctm, .lab, .vtt, .curves.tsv, .tsv.
+/// Whether a file holds what is said as text, by its ending: .utterance.json, .TextGrid, .ctm, .lab, .vtt, .curves.tsv, .tsv,
+/// .visemes.json.
 bool is_speech_text(const std::filesystem::path& out);
 void write_speech_text(talk::SpokenResult& result, const std::filesystem::path& out,
                        const speech::PhoneTable& table);

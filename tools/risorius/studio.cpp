@@ -14,6 +14,7 @@
 #include "risorius/core/output_set.h"
 #include "risorius/render/offscreen_view.h"
 #include "risorius/report/atomic_file.h"
+#include "risorius/talk/say_edit.h"
 #include "risorius/talk/say_event.h"
 #include "risorius/view/document.h"
 #include "risorius/view/scene_frame.h"
@@ -228,6 +229,8 @@ void Studio::text(serve::Peer& peer, const std::string& message) {
         const JsonCursor cursor = JsonCursor::from_json(json, "message");
         if (is("save")) {
             save(cursor);
+        } else if (is("say")) {
+            say(peer, cursor);
         } else if (is("open")) {
             const auto sample = cursor.find("sample");
             const fs::path file = sample ? data_folder() / "samples" /
@@ -254,6 +257,37 @@ void Studio::text(serve::Peer& peer, const std::string& message) {
     } catch (const RunError& error) {
         peer.send_text(error_text(field("id"), error.what()));
     }
+}
+
+/// The face says a text from the playhead on, at once: its closures are not checked before.
+void Studio::say(serve::Peer& peer, const JsonCursor& message) {
+    message.allow_keys({"type", "id", "text", "voice", "program"});
+    talk::VoiceRequest request;
+    request.text = message.at("text").string();
+    if (const auto voice = message.find("voice")) request.language = voice->string();
+    if (const auto program = message.find("program")) request.program = program->string();
+    const Json state = json_or_null(script_.session->state()),
+               script = json_or_null(script_.session->script_text());
+    const double at_s = state["t_s"].get<double>();
+    const talk::SayEdit said = talk::say_edit(script, request, at_s);
+    const std::vector<std::string> replies = script_.session->receive(
+        json_text(Json{{"type", "edit"}, {"edits", said.edits}, {"gesture", ""}}));
+    bool done = true;
+    for (const std::string& reply : replies) {
+        const bool document = json_or_null(reply)["type"] == "document";
+        if (document)
+            tell_all(reply);
+        else
+            peer.send_text(reply);
+        done = done && document;
+    }
+    if (!done) return;
+    tell_all(json_text(Json{{"type", "sound"}, {"start_s", said.start_s}}));
+    const auto sound = std::make_shared<const std::string>(said.wav);
+    for (const Page& page : pages_) page.peer->send_binary(sound);
+    script_.session->receive(json_text(Json{{"type", "seek"}, {"t_s", at_s}}));
+    script_.session->receive(json_text(Json{{"type", "play"}}));
+    pose_waits_ = true;
 }
 
 void Studio::tick() {

@@ -52,6 +52,7 @@ class Studio {
     void tell_all(const std::string& message);
     void send_pose(bool always);
     void save(const JsonCursor& message);
+    void say(serve::Peer& peer, const JsonCursor& message);
     std::string files() const;
     void write_recovery() const;
     void make_pictures(serve::WebServer& server);

@@ -87,8 +87,9 @@ std::vector<float> colours_of(const SkinValues& values) {
     return rgb;
 }
 
-constexpr const char* kShowNames[] = {"skin",   "muscles", "skull",    "wire",
-                                      "strain", "error",   "landmarks"};  // in the order of Show
+// In the order of Show
+constexpr const char* kShowNames[] = {"skin",   "muscles", "skull",     "wire",
+                                      "strain", "error",   "landmarks", "articulation"};
 
 }  // namespace
 

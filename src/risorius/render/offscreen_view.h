@@ -31,12 +31,14 @@ enum class Show {
     kMuscles,  ///< muscles coloured by activation under translucent skin, with a scale
     kSkull,    ///< skull, mandible and teeth under glassy skin
     // The following ones show the skin and what the caller adds: Pose::values, or lines and marks over the picture (overlays.h).
-    kWire,       ///< the mesh's edges
-    kStrain,     ///< principal strain of the skin
-    kError,      ///< distance of the skin from the skin of another run
-    kLandmarks,  ///< positions and names of the landmarks
+    kWire,          ///< the mesh's edges
+    kStrain,        ///< principal strain of the skin
+    kError,         ///< distance of the skin from the skin of another run
+    kLandmarks,     ///< positions and names of the landmarks
+    kArticulation,  ///< the mouth in section, instead of the face
 };
-/// The names of Show: "skin", "muscles", "skull", "wire", "strain", "error", "landmarks".
+/// The names of Show: "skin", "muscles", "skull", "wire", "strain", "error", "landmarks",
+/// "articulation".
 const std::vector<std::string>& show_names();
 /// Throws Error naming `place` and the valid names for an unknown name.
 Show show_named(const std::string& name, const std::string& place);

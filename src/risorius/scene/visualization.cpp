@@ -88,6 +88,7 @@ Visualization::Visualization(render::Show show, const render::Scene& scene, cons
                              std::optional<double> scale)
     : show_(show), scale_end_(scale_end(show, scale)), rest_(scene.rest), landmarks_(landmarks) {
     if (show == render::Show::kStrain || show == render::Show::kError) skin_ = skin_of(scene);
+    if (show == render::Show::kArticulation) articulation_.emplace(scene, head);
     if (show == render::Show::kWire) edges_ = edges_of(head, mesh);
     if (show == render::Show::kWire || show == render::Show::kLandmarks)
         surface_.emplace(scene, view.clip_from_world(), width_px, height_px);
@@ -121,6 +122,7 @@ std::optional<render::SkinValues> Visualization::values(
 }
 
 void Visualization::draw_over(const Points& positions, Image& image) const {
+    if (articulation_) return articulation_->draw(positions, image);
     if (!surface_) return;
     const render::SeenSurface seen = surface_->look(positions);
     if (show_ == render::Show::kWire) return draw_wire(edges_, *surface_, seen, image);

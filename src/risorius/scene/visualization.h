@@ -11,6 +11,7 @@
 #include "risorius/core/image.h"
 #include "risorius/render/offscreen_view.h"
 #include "risorius/render/surface_passes.h"
+#include "risorius/scene/detail/articulation_view.h"
 #include "risorius/scene/landmark_points.h"
 #include "risorius/scene/rig_files.h"
 
@@ -48,6 +49,7 @@ class Visualization {
     std::vector<std::array<int, 2>> edges_;
     std::optional<render::SurfacePasses> surface_;
     LandmarkPoints landmarks_;
+    std::optional<ArticulationView> articulation_;
 };
 
 }  // namespace risorius::scene

@@ -143,11 +143,7 @@ class Planner {
         return start_of(i) - (starts_speech(i) ? kUnheardClosure_s : 0);
     }
     double release_s(std::size_t i) const {
-        const Phone& phone = utterance_.phones[i];
-        if (phone.release) return utterance_.seconds(*phone.release);
-        if (!entries_[i].is_stop()) return end_of(i);
-        return end_of(i) -
-               std::min(kLongestRelease_s, kReleaseFraction * (end_of(i) - start_of(i)));
+        return speech::release_s(utterance_, utterance_.phones[i], entries_[i]);
     }
 
     void find_closures() {
@@ -284,6 +280,23 @@ class Planner {
 ArticulationTargets targets_of(const Utterance& utterance, const PhoneTable& table,
                                const SpeechStyle& style) {
     return Planner(utterance, table, style).plan();
+}
+
+double release_s(const Utterance& utterance, const Phone& phone, const PhoneEntry& entry) {
+    if (phone.release) return utterance.seconds(*phone.release);
+    const double end_s = utterance.seconds(phone.end);
+    if (!entry.is_stop()) return end_s;
+    return end_s -
+           std::min(kLongestRelease_s, kReleaseFraction * (end_s - utterance.seconds(phone.start)));
+}
+
+std::optional<double> first_burst_s(const Utterance& utterance, const PhoneTable& table) {
+    for (const Phone& phone : utterance.phones) {
+        const PhoneEntry entry = table.phone(phone.symbol, "phone");
+        if (entry.is_stop() || entry.manner == "nasal" || entry.kind == PhoneClass::kClosure)
+            return release_s(utterance, phone, entry);
+    }
+    return std::nullopt;
 }
 
 void change_closures(const std::vector<ClosureChange>& changes, ArticulationTargets& targets) {

@@ -12,6 +12,7 @@
 /// al. 2016, ACM Trans. Graph. 35(4) (JALI: style of jaw and lips). The time constants are estimates of this project.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,12 @@ inline constexpr double kAfterClosure_s = 0.010, kBeforeRelease_s = 0.018;
 /// Throws Error for a symbol that `table` does not know.
 ArticulationTargets targets_of(const Utterance& utterance, const PhoneTable& table,
                                const SpeechStyle& style = {});
+
+/// When a stop or nasal is released, s: as the utterance says, or by the kind of phone.
+double release_s(const Utterance& utterance, const Phone& phone, const PhoneEntry& entry);
+
+/// The release of the first stop, lip closure or nasal, s from the first sample of the sound; none without such a phone.
+std::optional<double> first_burst_s(const Utterance& utterance, const PhoneTable& table);
 
 /// Changes the windows and bounds of closures. Changes of phones that begin no closure have no effect.
 void change_closures(const std::vector<ClosureChange>& changes, ArticulationTargets& targets);

@@ -11,6 +11,7 @@
 #include "risorius/speech/trajectory.h"
 #include "risorius/talk/detail/gesture_drive.h"
 #include "risorius/talk/detail/speech_drive.h"
+#include "risorius/talk/detail/speech_noise.h"
 #include "risorius/talk/rig_voice_file.h"
 
 namespace risorius::talk {
@@ -102,7 +103,7 @@ std::string note_on_unknown_mouths(const scene::RigFiles& files) {
 
 SayEvent read_say(const JsonCursor& event, double duration_s) {
     event.allow_keys({"say", "voice", "program", "rate", "pitch", "start_s", "style", "face",
-                      "sound", "sound_offset_samples", "adjust"});
+                      "sound", "sound_offset_samples", "adjust", "burst_s", "noise"});
     SayEvent out;
     out.place = event.place();
     read_what(event.at("say"), out);
@@ -111,7 +112,18 @@ SayEvent read_say(const JsonCursor& event, double duration_s) {
     if (const auto v = event.find("program")) out.input.voice.program = v->string();
     if (const auto v = event.find("rate")) out.input.voice.rate = v->number({0.3, 3});
     if (const auto v = event.find("pitch")) out.input.voice.pitch = v->integer(0, 99);
-    out.start_s = event.at("start_s").number({-duration_s, duration_s});
+    if (const auto v = event.find("burst_s")) {
+        if (event.has("start_s")) v->fail("no \"start_s\" with it, or no \"burst_s\"");
+        out.burst_s = v->number({0, duration_s});
+    } else {
+        out.start_s = event.at("start_s").number({-duration_s, duration_s});
+    }
+    if (const auto v = event.find("noise")) {
+        v->allow_keys({"snr_db", "seed"});
+        out.snr_db = v->at("snr_db").number({-60, 60});
+        if (const auto seed = v->find("seed"))
+            out.noise_seed = static_cast<std::uint64_t>(seed->integer(0, 2147483647));
+    }
     if (const auto v = event.find("style")) {
         out.style = read_style(*v);
         if (const auto g = v->find("gestures")) out.gestures = g->number({0, 2});
@@ -146,6 +158,54 @@ void add_to_script(const PlannedSpeech& speech, track::ScriptDescription& script
             script.blinks.push_back(blink);
 }
 
+namespace {
+
+/// Puts a sound into a file that is gone with `out`.
+std::filesystem::path kept_sound(const media::MonoSound& sound, PlannedSpeech& out) {
+    auto folder = std::make_shared<OutputSet>(std::filesystem::temp_directory_path(),
+                                              OutputSet::Then::kRunGoesOn);
+    std::filesystem::path file = folder->scratch_file("speech.wav");
+    media::write_mono_wav(sound, file);
+    out.keeps = folder;
+    return file;
+}
+
+/// The sound of an event, its noise and its place in the script.
+void plan_sound(const JsonCursor& say, const SayEvent& event, const SpokenResult& spoken,
+                PlannedSpeech& out) {
+    const speech::Utterance& utterance = spoken.spoken.utterance;
+    std::filesystem::path sound = event.sound_file.empty() ? spoken.sound_file : event.sound_file;
+    if (sound.empty() && spoken.spoken.sound.empty()) return;
+    if (!out.sound_file.empty())
+        say.fail("one event with a sound (\"sound\": \"none\" for the others)", "two");
+    std::int64_t before = 0;
+    if (event.snr_db) {
+        media::MonoSound clean{utterance.rate_hz, spoken.spoken.sound};
+        if (!sound.empty()) clean = media::read_mono_sound(sound);
+        if (clean.rate_hz != utterance.rate_hz)
+            say.at("noise").fail(
+                "a sound of " + std::to_string(utterance.rate_hz) + " Hz, the rate of what is said",
+                std::to_string(clean.rate_hz));
+        NoisySpeech noisy = with_noise(clean.samples, utterance, *event.snr_db, event.noise_seed);
+        before = noisy.before;
+        if (noisy.gain < 1)
+            out.notes.push_back(event.place + ": speech and noise are " +
+                                format_number(std::round(-200 * std::log10(noisy.gain)) / 10) +
+                                " dB quieter, because they would have been cut off");
+        sound = kept_sound({utterance.rate_hz, std::move(noisy.samples)}, out);
+    } else if (sound.empty()) {
+        sound = kept_sound({utterance.rate_hz, spoken.spoken.sound}, out);
+    }
+    out.sound_file = sound;
+    std::optional<ReadingFormerOutput> own_file;
+    if (out.keeps) own_file.emplace();
+    const int rate_hz = media::read_mono_sound(sound).rate_hz;
+    out.sound_offset_samples =
+        std::llround(event.start_s * rate_hz) + event.sound_offset_samples - before;
+}
+
+}  // namespace
+
 PlannedSpeech plan_speech(const std::vector<JsonCursor>& says, const track::ScriptHeader& header,
                           const scene::RigFiles& files, const MouthPoses& poses) {
     PlannedSpeech out;
@@ -153,10 +213,15 @@ PlannedSpeech plan_speech(const std::vector<JsonCursor>& says, const track::Scri
     const speech::PhoneTable table = speech::PhoneTable::standard();
     std::optional<RigVoice> voice;
     for (const JsonCursor& say : says) {
-        const SayEvent event = read_say(say, header.duration_s);
+        SayEvent event = read_say(say, header.duration_s);
         SpokenResult spoken =
             event.timed_phones.empty() ? read_spoken(event.input, table) : of_timed(event, table);
         const speech::Utterance& utterance = spoken.spoken.utterance;
+        if (event.burst_s) {
+            const std::optional<double> burst_s = speech::first_burst_s(utterance, table);
+            if (!burst_s) say.at("burst_s").fail("a stop or nasal in what is said", "none");
+            event.start_s = *event.burst_s - *burst_s;
+        }
         for (const std::filesystem::path& file :
              {event.input.labels, event.input.utterance, spoken.sound_file, event.sound_file})
             if (!file.empty()) out.files.push_back(file);
@@ -186,25 +251,7 @@ PlannedSpeech plan_speech(const std::vector<JsonCursor>& says, const track::Scri
                 out.blinks.push_back(std::move(blink));
         }
         out.utterances.push_back({utterance, std::move(targets), event.start_s, event.face});
-        if (!event.sound) continue;
-        std::filesystem::path sound =
-            event.sound_file.empty() ? spoken.sound_file : event.sound_file;
-        if (sound.empty() && spoken.spoken.sound.empty()) continue;
-        if (!out.sound_file.empty())
-            say.fail("one event with a sound (\"sound\": \"none\" for the others)", "two");
-        if (sound.empty()) {
-            auto folder = std::make_shared<OutputSet>(std::filesystem::temp_directory_path(),
-                                                      OutputSet::Then::kRunGoesOn);
-            sound = folder->scratch_file("speech.wav");
-            media::write_mono_wav({utterance.rate_hz, spoken.spoken.sound}, sound);
-            out.keeps = folder;
-        }
-        out.sound_file = sound;
-        std::optional<ReadingFormerOutput> own_file;
-        if (out.keeps) own_file.emplace();
-        const int rate_hz = media::read_mono_sound(sound).rate_hz;
-        out.sound_offset_samples =
-            std::llround(event.start_s * rate_hz) + event.sound_offset_samples;
+        if (event.sound) plan_sound(say, event, spoken, out);
     }
     return out;
 }

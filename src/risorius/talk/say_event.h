@@ -21,6 +21,8 @@ struct SayEvent {
     /// Phones with durations instead of a text, s
     std::vector<std::pair<std::string, double>> timed_phones;
     double start_s = 0;  ///< time of the first sample of the sound
+    /// When the first stop or nasal is released, in place of start_s
+    std::optional<double> burst_s;
     speech::SpeechStyle style;
     double gestures = 0, blinks = 0;            ///< keys of "style", see speech::ProsodyOptions
     std::vector<speech::ClosureChange> adjust;  ///< "adjust": closures, as a check found them
@@ -28,7 +30,9 @@ struct SayEvent {
     bool sound = true;                          ///< false: "none"
     std::filesystem::path sound_file;           ///< another sound than the spoken one; may be empty
     std::int64_t sound_offset_samples = 0;      ///< moves the sound, in its samples; > 0: later
-    std::string place;                          ///< in messages
+    std::optional<double> snr_db;  ///< level of the speech over noise that is added to its sound
+    std::uint64_t noise_seed = 1;
+    std::string place;  ///< in messages
 };
 
 /// Reads one event. Throws Error; the message names the place.

@@ -58,7 +58,8 @@ ScriptView read_view(const JsonCursor& json) {
         view.camera = v->one_of({"front", "three_quarter", "three_quarter_right", "profile",
                                  "profile_right", "top", "eye", "nose", "mouth", "ear"});
     if (const auto v = json.find("show"))
-        view.show = v->one_of({"skin", "muscles", "skull", "wire", "strain", "landmarks"});
+        view.show =
+            v->one_of({"skin", "muscles", "skull", "wire", "strain", "landmarks", "articulation"});
     if (const auto v = json.find("background")) {
         const char* expected = "a colour \"#rrggbb\" or \"transparent\"";
         if (!v->is_string()) v->fail(expected);

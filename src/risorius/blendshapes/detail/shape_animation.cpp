@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 
 #include "risorius/scene/script_drives.h"
+#include "risorius/speech/visemes.h"
 #include "risorius/talk/say_event.h"
 #include "risorius/track/arkit_names.h"
 #include "risorius/track/script.h"
@@ -28,18 +30,47 @@ std::string timecode(long frame, int fps) {
     return text;
 }
 
+/// Visemes are not fitted to what muscles do: while a script speaks, they have the weights of its curves, so that the lips close.
+void use_viseme_weights(const talk::PlannedSpeech& speech, ShapeAnimation& animation) {
+    const auto column = [&](std::string_view viseme) {
+        const auto found = std::find(animation.shapes.begin(), animation.shapes.end(),
+                                     "viseme_" + std::string(viseme));
+        return found == animation.shapes.end() ? -1L : found - animation.shapes.begin();
+    };
+    const speech::PhoneTable table = speech::PhoneTable::standard();
+    for (const talk::PlacedUtterance& said : speech.utterances) {
+        if (!said.face) continue;
+        const auto frame = [&](double t_s) {
+            return std::clamp<long>(std::lround((said.start_s + t_s) * animation.fps), 0,
+                                    animation.weights.rows());
+        };
+        const long from = frame(said.targets.start_s), to = frame(said.targets.end_s);
+        const Eigen::MatrixXd weights = speech::viseme_weights(
+            said.utterance, said.targets, table,
+            static_cast<double>(from) / animation.fps - said.start_s, animation.fps, to - from);
+        animation.weights.middleRows(from, to - from).setZero();
+        for (std::size_t v = 0; v < speech::kVisemeCount; ++v)
+            if (const long at = column(speech::oculus_visemes()[v]); at >= 0)
+                animation.weights.block(from, at, to - from, 1) = weights.col(static_cast<long>(v));
+    }
+}
+
 }  // namespace
 
 ShapeAnimation bake_script(const std::filesystem::path& script_file, const scene::RigFiles& files,
                            const std::vector<ShapeGoal>& goals, const ShapeWeights& weights) {
     track::ScriptDescription script = track::read_script(script_file, files.rig.channels(),
                                                          files.rig.facs, files.rig.expressions);
-    talk::add_to_script(talk::plan_speech(script.says, script.header, files), script);
+    const talk::PlannedSpeech speech = talk::plan_speech(script.says, script.header, files);
+    talk::add_to_script(speech, script);
     scene::ScriptDrives drives(script, files.rig);
     ShapeAnimation out;
     out.name = script_file.stem().string();
     out.fps = script.header.fps;
     for (const ShapeGoal& goal : goals) out.shapes.push_back(goal.name);
+    const bool of_visemes = std::any_of(goals.begin(), goals.end(), [](const ShapeGoal& goal) {
+        return goal.name.starts_with("viseme_");
+    });
     const int frames = script.header.frame_count();
     out.weights.resize(frames, static_cast<long>(goals.size()));
     for (int f = 0; f < frames; ++f) {
@@ -47,6 +78,7 @@ ShapeAnimation bake_script(const std::filesystem::path& script_file, const scene
         out.weights.row(f) = weights.of(drive).transpose();
         out.drives.push_back(std::move(drive));
     }
+    if (of_visemes) use_viseme_weights(speech, out);
     return out;
 }
 

@@ -8,6 +8,8 @@
 #include <queue>
 #include <set>
 
+#include "risorius/geom/plane_section.h"
+
 namespace risorius::talk {
 
 namespace {
@@ -91,12 +93,17 @@ MouthMeasures::MouthMeasures(const rig::Head& head, const rig::RigDescription& r
         const auto a = one.find(v), b = other.find(v);
         return a != one.end() && (b == other.end() || a->second < b->second);
     };
-    for (const std::array<int, 3>& t : triangles) {
-        if (std::all_of(t.begin(), t.end(), [&](int v) { return nearer(upper, lower, v); }))
-            upper_.push_back(t);
-        if (std::all_of(t.begin(), t.end(), [&](int v) { return nearer(lower, upper, v); }))
-            lower_.push_back(t);
-    }
+    const auto lip = [&](const auto& own, const auto& other) {
+        Triangles out(static_cast<long>(triangles.size()), 3);
+        long count = 0;
+        for (const std::array<int, 3>& t : triangles)
+            if (std::all_of(t.begin(), t.end(), [&](int v) { return nearer(own, other, v); }))
+                out.row(count++) << t[0], t[1], t[2];
+        out.conservativeResize(count, 3);
+        return out;
+    };
+    upper_ = lip(upper, lower);
+    lower_ = lip(lower, upper);
     middle_x_ = head.landmark("ls").x();
     if (head.has_teeth)
         for (const double x_mm : kIncisors_mm) {
@@ -120,25 +127,6 @@ MouthMeasures::MouthMeasures(const rig::Head& head, const rig::RigDescription& r
     rest_gap_ = mouth.gap;
 }
 
-MouthMeasures::Vec2List MouthMeasures::section(const std::vector<std::array<int, 3>>& triangles,
-                                               const Points& vertices, double x) {
-    Vec2List out;
-    for (const std::array<int, 3>& t : triangles) {
-        std::array<Vec2, 2> ends;
-        std::size_t count = 0;
-        for (std::size_t k = 0; k < 3 && count < 2; ++k) {
-            const int a = t[k], b = t[(k + 1) % 3];
-            const double xa = vertices(a, 0) - x, xb = vertices(b, 0) - x;
-            if ((xa < 0) == (xb < 0)) continue;
-            const double s = xa / (xa - xb);
-            ends[count++] = Vec2((1 - s) * vertices(a, 1) + s * vertices(b, 1),
-                                 (1 - s) * vertices(a, 2) + s * vertices(b, 2));
-        }
-        if (count == 2) out.emplace_back(ends[0], ends[1]);
-    }
-    return out;
-}
-
 Mouth MouthMeasures::at(const face::FacePose& pose) const {
     // Back to the head frame
     Points vertices = pose.vertices;
@@ -150,8 +138,8 @@ Mouth MouthMeasures::at(const face::FacePose& pose) const {
     Mouth out;
     const double to_mm = 1e3;
     const auto gap_at = [&](double x_mm) {
-        const Vec2List upper = section(upper_, vertices, middle_x_ + x_mm * millimetre_),
-                       lower = section(lower_, vertices, middle_x_ + x_mm * millimetre_);
+        const auto upper = geom::plane_section(upper_, vertices, middle_x_ + x_mm * millimetre_),
+                   lower = geom::plane_section(lower_, vertices, middle_x_ + x_mm * millimetre_);
         double least = std::numeric_limits<double>::infinity();
         for (const auto& one : upper)
             for (const auto& two : lower) least = std::min(least, distance(one, two));
@@ -175,7 +163,7 @@ Mouth MouthMeasures::at(const face::FacePose& pose) const {
         double nearest = std::numeric_limits<double>::infinity();
         for (const Vec3& edge : incisors_) {
             const Vec2 point(edge.y(), edge.z());
-            for (const auto& one : section(lower_, vertices, edge.x()))
+            for (const auto& one : geom::plane_section(lower_, vertices, edge.x()))
                 nearest = std::min(nearest, distance({point, point}, one));
         }
         if (std::isfinite(nearest)) out.teeth = to_mm * nearest;

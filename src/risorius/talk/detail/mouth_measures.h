@@ -38,14 +38,9 @@ class MouthMeasures {
     Mouth at(const face::FacePose& pose) const;
 
   private:
-    using Vec2List = std::vector<std::pair<Vec2, Vec2>>;
-    /// Where the plane with this x cuts triangles: segments in y and z.
-    static Vec2List section(const std::vector<std::array<int, 3>>& triangles,
-                            const Points& vertices, double x);
-
     scene::LandmarkPoints landmarks_;
-    std::vector<std::array<int, 3>> upper_, lower_;  ///< triangles of the lips
-    std::vector<Vec3> incisors_;                     ///< edge of the upper incisors, head frame, m
+    Triangles upper_, lower_;     ///< of the lips
+    std::vector<Vec3> incisors_;  ///< edge of the upper incisors, head frame, m
     double middle_x_ = 0;
     double millimetre_;  ///< of the atlas head on this head, m
     Vec3 rest_lower_;    ///< landmark li at rest, m
