@@ -308,6 +308,19 @@ TEST_F(Designs, ControlsOfTheOvalNeedTheirNumbers) {
     EXPECT_EQ(with(R"({"control": "high_pass", "cycles_per_face": 32, "contrast": "rms"})"),
               "no error");
     EXPECT_EQ(with(R"("oval")"), "no error");
+    EXPECT_NE(with(R"("band_pass")").find("\"cycles_per_face\""), std::string::npos);
+    EXPECT_NE(
+        with(R"({"control": "band_pass", "cycles_per_face": 8})").find("expected [low, high]"),
+        std::string::npos);
+    EXPECT_NE(with(R"({"control": "band_pass", "cycles_per_face": [16, 8]})")
+                  .find("/cycles_per_face/1: expected more than the lower end, found 8"),
+              std::string::npos);
+    EXPECT_EQ(with(R"({"control": "band_pass", "cycles_per_face": [8, 16]})"), "no error");
+    EXPECT_NE(with(R"({"control": "point_light", "dots": 94})").find("/dots: expected"),
+              std::string::npos);
+    EXPECT_EQ(with(R"({"control": "point_light", "scattered": true})"), "no error");
+    EXPECT_NE(with(R"({"control": "mondrian", "dots": 9})").find("dots"), std::string::npos);
+    EXPECT_EQ(with(R"("mirrored")"), "no error");
 }
 
 TEST_F(Designs, ExperimentsAskForKeysAndKnownSets) {

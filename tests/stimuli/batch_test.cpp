@@ -246,12 +246,13 @@ TEST_F(Batch, RefusesBeforeAnythingIsMade) {
 TEST_F(Batch, FiltersAndNoiseChangeTheOvalAlone) {
     Json json = Json::parse(text_of(design("oval.json", {1}, R"([
         {"control": "low_pass", "cycles_per_face": 3}, {"control": "high_pass", "cycles_per_face": 3},
-        {"control": "noise", "snr_db": 0}, "oval"])")));
+        {"control": "noise", "snr_db": 0}, "oval", "mirrored", "mondrian",
+        {"control": "point_light", "dots": 5, "radius": 0.06}])")));
     json["clips"].erase("photodiode");
     std::ofstream(folder().path() / "oval.json") << json.dump();
     const BatchOptions options{
         .design = folder().path() / "oval.json", .out = folder().path() / "oval", .workers = 2};
-    EXPECT_EQ(make_batch(options).made, 5);
+    EXPECT_EQ(make_batch(options).made, 8);
     const auto frame_of = [&](const char* clip) {
         return media::VideoReader(options.out /
                                   ("stimuli/stim-smile1" + std::string(clip) + "_video.mkv"))
@@ -281,6 +282,58 @@ TEST_F(Batch, FiltersAndNoiseChangeTheOvalAlone) {
             }
         EXPECT_GT(changed, 200) << clip;
     }
+    // Mirrored: pictures, and the table with them
+    const auto rows_of = [&](const char* clip) {
+        return animate::frame_rows(
+            text_of(options.out / "stimuli" /
+                    ("stim-smile1" + std::string(clip) + "_annot-frames_events.tsv")));
+    };
+    const Image mirrored = frame_of("Mirrored");
+    const animate::FrameRows other = rows_of("Mirrored");
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 48; ++x) ASSERT_EQ(mirrored.pixel(x, y)[1], plain.pixel(47 - x, y)[1]);
+    const auto cell = [](const animate::FrameRows& of, const char* column) {
+        return of.number(2, of.column(column));
+    };
+    EXPECT_NEAR(cell(other, "ch_l.u_px"), 48 - cell(rows, "ch_r.u_px"), 1e-3);
+    EXPECT_EQ(cell(other, "ch_l.v_px"), cell(rows, "ch_r.v_px"));
+    EXPECT_EQ(cell(other, "ch_l.x_mm"), -cell(rows, "ch_r.x_mm"));
+    EXPECT_EQ(cell(other, "activation.zygomaticus_major.l"),
+              cell(rows, "activation.zygomaticus_major.r"));
+    // A mask has the mean of the face, no landmarks and no moments
+    const animate::FrameRows mask = rows_of("Mondrian");
+    EXPECT_LT(mask.column("ch_l.u_px"), 0);
+    EXPECT_NE(
+        frame_of("Mondrian").rgba,
+        media::VideoReader(options.out / "stimuli/stim-smile1Mondrian_video.mkv").frame(1).rgba);
+    const Json sidecar =
+        Json::parse(text_of(options.out / "stimuli/stim-smile1Mondrian_video.json"));
+    EXPECT_TRUE(sidecar.at("movement_onset_frame").is_null());
+    EXPECT_TRUE(sidecar.at("motion").at("seen_mm").is_null());
+    // Dots on the landmarks alone
+    const Image dots = frame_of("PointLight");
+    EXPECT_GT(dots.pixel(nose_x, nose_y)[1], 230);
+    int bright = 0, background = 0;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 48; ++x) {
+            bright += dots.pixel(x, y)[1] > 200;
+            background += dots.pixel(x, y)[1] == 128;
+        }
+    EXPECT_GE(bright, 5);
+    EXPECT_LT(bright, 5 * 16);
+    EXPECT_GT(background, 48 * 64 - 5 * 30);
+    // What its name does not tell changes a control, too
+    json["sets"][0]["controls"][6]["dots"] = 6;
+    std::ofstream(folder().path() / "oval.json") << json.dump();
+    const BatchReport more = make_batch(options);
+    EXPECT_EQ(more.made, 1);
+    EXPECT_EQ(more.kept, 7);
+    json["sets"][0]["controls"] = Json::parse(R"([{"control": "mondrian", "rate_hz": 3}])");
+    std::ofstream(folder().path() / "oval.json") << json.dump();
+    EXPECT_NE(message_of([&] { make_batch(options); })
+                  .find("expected a rate_hz that divides the frames per second, for the control "
+                        "mondrian, found 3 at 10 fps"),
+              std::string::npos);
     json["sets"][0]["controls"] =
         Json::parse(R"([{"control": "low_pass", "cycles_per_face": 30}])");
     std::ofstream(folder().path() / "oval.json") << json.dump();

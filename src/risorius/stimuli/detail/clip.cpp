@@ -25,6 +25,7 @@
 #include "risorius/stimuli/detail/clip_pictures.h"
 #include "risorius/stimuli/detail/expression_script.h"
 #include "risorius/stimuli/detail/frame_columns.h"
+#include "risorius/stimuli/detail/mirrored_rows.h"
 #include "risorius/stimuli/detail/seen_motion.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
 #include "risorius/track/timeline.h"
@@ -198,6 +199,12 @@ void check_control(const ClipPlan& plan, const track::ScriptDescription& script,
                         ", which keeps them in memory",
                     std::to_string(plan.frames) + " of " + std::to_string(plan.width_px) + " x " +
                         std::to_string(plan.height_px));
+    const double per_pattern = plan.fps / plan.condition.control.rate_hz;
+    if (kind == design::ControlKind::kMondrian &&
+        (per_pattern < 1 || std::abs(per_pattern - std::round(per_pattern)) > 1e-6))
+        throw Error(place, "a rate_hz that divides the frames per second, for the control mondrian",
+                    format_number(plan.condition.control.rate_hz) + " at " +
+                        std::to_string(plan.fps) + " fps");
     if (kind == design::ControlKind::kFlipped && moves_the_head(script, channels, plan))
         throw Error(place, "a head that does not move, for the control flipped",
                     "one that the script moves");
@@ -233,13 +240,9 @@ Json or_none(const std::optional<int>& value) { return value ? Json(*value) : Js
 std::string content_sha256_of(const ClipPlan& plan) {
     const design::Condition& condition = plan.condition;
     const design::ClipOptions& clips = plan.clips;
-    const design::ControlKind kind = condition.control.kind;
     Json content{{"film", plan.render_sha256},  // the key is part of the hashed text
                  {"control", condition.control.name()},
-                 {"seed", kind == design::ControlKind::kScrambled ||
-                                  kind == design::ControlKind::kPhaseScrambled
-                              ? condition.seed
-                              : 0u},
+                 {"seed", condition.control.is_random() ? condition.seed : 0u},
                  {"ending", clips.ending},
                  {"crf", clips.crf ? Json(*clips.crf) : Json()},
                  {"lossless", clips.lossless},
@@ -247,6 +250,9 @@ std::string content_sha256_of(const ClipPlan& plan) {
                  {"keyframes", or_none(keyframe_interval(plan))},
                  {"made_by", kWayOfMaking},
                  {"photodiode", clips.photodiode ? Json(*clips.photodiode) : Json()}};
+    // What the name of a control does not tell; older controls keep their checksums
+    if (const Json unnamed = condition.control.unnamed(); !unnamed.is_null())
+        content["control_keys"] = unnamed;
     if (plan.sound)
         content["sound"] = {{"file", plan.sound->sha256},
                             {"offset_samples", plan.sound->offset_samples},
@@ -434,7 +440,11 @@ ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
         apex = seen_motion(shown.rows, twin, forwards, plan.fps).apex.value_or(0);
     }
     shown.order = order_with(apex);
-    shown.motion = seen_motion(shown.rows, twin, shown.order, plan.fps);
+    // A mask shows no face.
+    if (control.kind != ControlKind::kMondrian)
+        shown.motion = seen_motion(shown.rows, twin, shown.order, plan.fps);
+    if (control.kind == ControlKind::kMirrored)
+        shown.motion.landmark = other_side(shown.motion.landmark);
     if (shown.motion.seen_mm) shown.motion.full_mm = full_motion_mm(plan, worker);
     if (std::is_sorted(shown.order.begin(), shown.order.end()) && shown.motion.seen_mm)
         find_commanded(job.script, shown);

@@ -9,11 +9,13 @@
 #include "risorius/animate/frame_rows.h"
 #include "risorius/core/image.h"
 #include "risorius/media/luminance.h"
+#include "risorius/media/mondrian.h"
 #include "risorius/media/phase_scramble.h"
 #include "risorius/media/sha256.h"
 #include "risorius/media/tone.h"
 #include "risorius/media/video_writer.h"
 #include "risorius/stimuli/detail/clip.h"
+#include "risorius/stimuli/detail/point_lights.h"
 
 namespace risorius::stimuli {
 
@@ -69,6 +71,9 @@ class ClipPictures {
     void change_oval(const std::vector<float>& oval, int frame, Image& image);
     void look_for_change(const Image& image);
 
+    void pass(const std::vector<float>& oval, Image& image);
+    void draw_mask(const std::vector<float>& oval, int frame, Image& image);
+
     const ClipPlan& plan_;
     design::ControlKind kind_;
     std::optional<media::ToneCurve> tone_;
@@ -76,6 +81,8 @@ class ClipPictures {
     bool later_, measured_, layered_;
     const animate::FrameRows* rows_ = nullptr;
     std::optional<Window> window_;
+    std::optional<PointLights> dots_;
+    media::Mondrian mask_;
     media::LuminanceSums luminance_;
     double cut_off_ = 0;
     int added_ = 0;
