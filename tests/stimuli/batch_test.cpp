@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -15,6 +17,7 @@
 #include "risorius/animate/frame_rows.h"
 #include "risorius/media/tone.h"
 #include "risorius/media/video_reader.h"
+#include "risorius/media/wav_file.h"
 #include "temporary_folder.h"
 #include "tools/risorius/check_files.h"
 
@@ -342,6 +345,57 @@ TEST_F(Batch, FiltersAndNoiseChangeTheOvalAlone) {
     EXPECT_NE(report.failed[0].second.find("expected a face of 120 px or more for this"),
               std::string::npos)
         << report.failed[0].second;
+}
+
+// A ladder of asynchronies: the same gain, nothing cut off, equal lengths, and sound minus movement as asked.
+TEST_F(Batch, BeginsBeforeALeadingSound) {
+    constexpr int kRate_hz = 8000;
+    media::Sound beep;
+    beep.rate_hz = kRate_hz;
+    for (int i = 0; i < kRate_hz / 2; ++i)
+        beep.samples.push_back(0.2f * static_cast<float>(std::cos(0.3 * i)));
+    media::write_wav(beep, folder().path() / "beep.wav");
+    Json json = Json::parse(text_of(design("early.json", {1})));
+    json["clips"].erase("photodiode");
+    json["match"]["loudness"]["lufs"] = -30;
+    Json& set = json["sets"][0];
+    set["audio"] = "beep.wav";
+    set["audio_start_s"] = "= 0.05 + soa_ms / 1000";
+    set["factors"]["soa_ms"] = {-230, 0, 80};
+    set["clip"] = "soa_${soa_ms}";
+    set["script"]["duration_s"] = 0.7;
+    std::ofstream(folder().path() / "early.json") << json.dump();
+    const BatchOptions options{
+        .design = folder().path() / "early.json", .out = folder().path() / "early", .workers = 2};
+    EXPECT_EQ(make_batch(options).made, 3);
+    std::map<int, Json> sidecars;
+    for (const auto& [soa_ms, clip] :
+         std::map<int, std::string>{{-230, "soaM230"}, {0, "soa0"}, {80, "soa80"}}) {
+        const fs::path stem = options.out / ("stimuli/stim-" + clip);
+        const Json sidecar = Json::parse(text_of(stem.string() + "_audiovideo.json"));
+        // 0.18 s before the script: two frames of 0.1 s
+        EXPECT_EQ(sidecar.at("frames"), 9);
+        const int onset = sidecar.at("movement_onset_frame");
+        EXPECT_GE(onset, 3);
+        EXPECT_NEAR(sidecar.at("motion").at("commanded_onset_s").get<double>(), 0.25, 1e-9);
+        media::VideoReader video(stem.string() + "_audiovideo.mkv");
+        ASSERT_EQ(video.frames(), 9);
+        EXPECT_EQ(video.frame(0).rgba, video.frame(2).rgba);
+        EXPECT_NE(video.frame(2).rgba, video.frame(onset + 1).rgba);
+        const media::Sound heard = media::read_sound(stem.string() + "_audio.wav");
+        const auto sounds = [](float sample) { return sample != 0; };
+        const auto first = std::find_if(heard.samples.begin(), heard.samples.end(), sounds);
+        const double sound_s = static_cast<double>(first - heard.samples.begin()) / kRate_hz;
+        EXPECT_NEAR(sound_s - 0.25, soa_ms / 1000.0, 1e-3) << clip;
+        EXPECT_NEAR(std::count_if(heard.samples.begin(), heard.samples.end(), sounds), kRate_hz / 2,
+                    5);
+        EXPECT_NEAR(sidecar.at("audio").at("gain_db").get<double>(),
+                    sidecars.empty()
+                        ? sidecar.at("audio").at("gain_db").get<double>()
+                        : sidecars.begin()->second.at("audio").at("gain_db").get<double>(),
+                    1e-9);
+        sidecars[soa_ms] = sidecar;
+    }
 }
 
 TEST_F(Batch, NotesWhatMayNotBeMeant) {

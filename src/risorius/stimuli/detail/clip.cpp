@@ -192,14 +192,14 @@ struct ShownClip {
 };
 
 /// When the strongest expression of a script is told to begin and to be complete.
-void find_commanded(const track::ScriptDescription& script, ShownClip& shown) {
+void find_commanded(const track::ScriptDescription& script, double lead_s, ShownClip& shown) {
     const track::ExpressionEvent* strongest = nullptr;
     for (const track::ExpressionEvent& event : script.expressions) {
         if (!strongest || event.intensity > strongest->intensity) strongest = &event;
         shown.commanded_onset_s =
-            std::min(shown.commanded_onset_s.value_or(event.start_s), event.start_s);
+            std::min(shown.commanded_onset_s.value_or(INFINITY), lead_s + event.start_s);
     }
-    if (strongest) shown.commanded_apex_s = strongest->start_s + strongest->onset_s;
+    if (strongest) shown.commanded_apex_s = lead_s + strongest->start_s + strongest->onset_s;
 }
 
 /// SeenMotion::full_mm of a clip.
@@ -237,7 +237,10 @@ ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
         twin = animate::play_landmarks(*without, worker.session, worker.monitor);
     const design::Control& control = plan.condition.control;
     const auto order_with = [&](int apex) {
-        return design::frame_order(control, job.frames, apex, plan.condition.seed);
+        std::vector<int> order =
+            design::frame_order(control, job.frames, apex, plan.condition.seed);
+        order.insert(order.begin(), static_cast<std::size_t>(plan.lead_frames), order.front());
+        return order;
     };
     int apex = 0;
     if (control.kind == ControlKind::kApex) {
@@ -253,7 +256,7 @@ ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
         shown.motion.landmark = other_side(shown.motion.landmark);
     if (shown.motion.seen_mm) shown.motion.full_mm = full_motion_mm(plan, worker);
     if (std::is_sorted(shown.order.begin(), shown.order.end()) && shown.motion.seen_mm)
-        find_commanded(job.script, shown);
+        find_commanded(job.script, static_cast<double>(plan.lead_frames) / plan.fps, shown);
     pictures.know(shown.rows);
     pictures.finish(shown.order);
     if (unmatched) shown.luminance = matched_luminance(plan, *unmatched, pictures);

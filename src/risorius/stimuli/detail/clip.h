@@ -45,6 +45,8 @@ struct ClipPlan {
     std::optional<media::Tone> tone;
     std::optional<ClipSound> sound;
     int frames = 0, fps = 0, width_px = 0, height_px = 0;
+    /// Frames at the beginning that show the first one, because a recording of the set begins before the script; part of `frames`
+    int lead_frames = 0;
     std::array<std::uint8_t, 3> background{};  ///< sRGB of the displayed background
     bool transparent = false;                  ///< whether there is none
     /// Checksum of face and view; clips with the same value can share a session
@@ -62,8 +64,9 @@ struct ClipPlan {
     void match(const media::Tone& matched);
 };
 
-/// Checks the script of a condition against its rig. Throws Error naming the condition.
-ClipPlan plan_clip(const design::Condition& condition, const design::Design& design,
+/// Checks the script of a condition against its rig. `lead_s`: how long before the script the earliest recording of the set begins.
+/// Throws Error naming the condition.
+ClipPlan plan_clip(const design::Condition& condition, double lead_s, const design::Design& design,
                    animate::RenderInputs& inputs, SoundPlans& sounds);
 
 /// Returns whether `folder` holds this clip with all its files unchanged.

@@ -115,7 +115,7 @@ void Window::show(const std::array<std::uint8_t, 3>& outside, Image& image) cons
 
 bool needs_all_frames(const ClipPlan& plan) {
     const ControlKind kind = plan.condition.control.kind;
-    return shows_other_order(kind) || shows_part(kind) ||
+    return plan.lead_frames > 0 || shows_other_order(kind) || shows_part(kind) ||
            (plan.condition.control.changes_the_oval() && !plan.luminance);
 }
 
@@ -141,7 +141,7 @@ ClipPictures::ClipPictures(const ClipPlan& plan, media::VideoWriter& video)
       kind_(plan.condition.control.kind),
       video_(video),
       later_(needs_all_frames(plan)),
-      measured_(plan.tone || plan.condition.control.shows_otherwise()),
+      measured_(plan.tone || plan.lead_frames > 0 || plan.condition.control.shows_otherwise()),
       layered_(has_layers(plan)) {
     if (plan.tone) tone_.emplace(*plan.tone);
     if (kind_ == design::ControlKind::kPhaseScrambled)
@@ -214,9 +214,9 @@ void ClipPictures::pass(const std::vector<float>& oval, Image& image) {
 }
 
 /// Draws the pattern of a frame, with mean and deviation of luminance of the face in the first frame.
-void ClipPictures::draw_mask(const std::vector<float>& oval, int frame, Image& image) {
+void ClipPictures::draw_mask(const std::vector<float>& oval, Image& image) {
     const design::Control& control = plan_.condition.control;
-    if (frame == 0) {
+    if (written_ == 0) {
         media::LuminanceSums face;
         face.add(image, oval);
         mask_ = {.face_px = width_of_face(*rows_, plan_.condition.clip),
@@ -224,8 +224,8 @@ void ClipPictures::draw_mask(const std::vector<float>& oval, int frame, Image& i
                  .mean = face.mean(),
                  .sd = face.sd()};
     }
-    const auto pattern =
-        static_cast<unsigned>(frame / static_cast<int>(std::lround(plan_.fps / control.rate_hz)));
+    const auto pattern = static_cast<unsigned>(
+        written_ / static_cast<int>(std::lround(plan_.fps / control.rate_hz)));
     mask_.seed = plan_.condition.seed + kNextFrame * pattern;
     media::draw(mask_, image);
 }
@@ -251,12 +251,12 @@ void ClipPictures::change_oval(const std::vector<float>& oval, int frame, Image&
                                  plan_.background, image);
             break;
         case ControlKind::kMondrian:
-            draw_mask(oval, frame, image);
+            draw_mask(oval, image);
             break;
         case ControlKind::kNoise:
             media::add_noise(control.snr_db,
-                             plan_.condition.seed + kNextFrame * static_cast<unsigned>(frame), oval,
-                             image);
+                             plan_.condition.seed + kNextFrame * static_cast<unsigned>(written_),
+                             oval, image);
             break;
         default:  // the oval alone
             media::keep_weighted(oval, plan_.background, image);

@@ -72,7 +72,7 @@ class ClipPictures {
     void look_for_change(const Image& image);
 
     void pass(const std::vector<float>& oval, Image& image);
-    void draw_mask(const std::vector<float>& oval, int frame, Image& image);
+    void draw_mask(const std::vector<float>& oval, Image& image);
 
     const ClipPlan& plan_;
     design::ControlKind kind_;

@@ -26,6 +26,7 @@ namespace {
 constexpr double kClip_s = 0.1, kFrame_s = 0.04, kPixel_s = 1e-7, kByte_px = 0.03,
                  kLosslessByte_px = 1.2;
 constexpr int kOneKeyframe_s = 10;        // shorter clips have only one key frame
+constexpr double kRounding = 1e-9;        // of a number of frames
 constexpr double kMaxHeld_bytes = 0.6e9;  // limit for frames that are kept in memory
 
 }  // namespace
@@ -105,7 +106,9 @@ void check_control(const ClipPlan& plan, const track::ScriptDescription& script,
     if (needs_all_frames(plan) &&
         4.0 * plan.frames * plan.width_px * plan.height_px > kMaxHeld_bytes)
         throw Error(place,
-                    "fewer or smaller frames for the control " + plan.condition.control.name() +
+                    "fewer or smaller frames for " +
+                        (plan.is_control() ? "the control " + plan.condition.control.name()
+                                           : std::string("a sound before the script")) +
                         ", which keeps them in memory",
                     std::to_string(plan.frames) + " of " + std::to_string(plan.width_px) + " x " +
                         std::to_string(plan.height_px));
@@ -163,6 +166,7 @@ std::string content_sha256_of(const ClipPlan& plan) {
     // What the name of a control does not tell; older controls keep their checksums
     if (const Json unnamed = condition.control.unnamed(); !unnamed.is_null())
         content["control_keys"] = unnamed;
+    if (plan.lead_frames > 0) content["lead_frames"] = plan.lead_frames;
     if (plan.sound)
         content["sound"] = {{"file", plan.sound->sha256},
                             {"offset_samples", plan.sound->offset_samples},
@@ -172,7 +176,7 @@ std::string content_sha256_of(const ClipPlan& plan) {
 
 }  // namespace
 
-ClipPlan plan_clip(const design::Condition& condition, const design::Design& design,
+ClipPlan plan_clip(const design::Condition& condition, double lead_s, const design::Design& design,
                    animate::RenderInputs& inputs, SoundPlans& sounds) {
     const design::ClipOptions& clips = design.clips;
     ClipPlan plan;
@@ -187,8 +191,9 @@ ClipPlan plan_clip(const design::Condition& condition, const design::Design& des
     const track::ChannelTable channels = rig.channels();
     const track::ScriptDescription script =
         track::read_script(json, channels, rig.facs, rig.expressions);
-    plan.frames = header.frame_count();
     plan.fps = header.fps;
+    plan.lead_frames = static_cast<int>(std::ceil(lead_s * plan.fps - kRounding));
+    plan.frames = plan.lead_frames + header.frame_count();
     plan.width_px = header.view.width_px;
     plan.height_px = header.view.height_px;
     plan.transparent = header.view.transparent;
@@ -203,8 +208,10 @@ ClipPlan plan_clip(const design::Condition& condition, const design::Design& des
                                                   .crf = clips.crf,
                                                   .keyframe_interval = clips.keyframe_interval,
                                                   .lossless = clips.lossless});
+    design::Condition heard = condition;
+    heard.audio_start_s += static_cast<double>(plan.lead_frames) / plan.fps;
     if (condition.audio)
-        plan.sound = sounds.at(condition, static_cast<double>(plan.frames) / plan.fps,
+        plan.sound = sounds.at(heard, static_cast<double>(plan.frames) / plan.fps,
                                design.match.loudness_lufs, json.place());
     const std::string rig_sha256 = sha256_of_rig(*input);
     plan.scene_sha256 = animate::sha256_of_text(
