@@ -323,6 +323,19 @@ TEST_F(Designs, ControlsOfTheOvalNeedTheirNumbers) {
     EXPECT_EQ(with(R"("mirrored")"), "no error");
 }
 
+TEST_F(Designs, AreasOfInterestAreKnownOnes) {
+    Json json = design();
+    json["clips"]["aois"] = {"eye_l", "nose"};
+    EXPECT_EQ(complaint(json), "no error");
+    json["clips"]["aois"] = {"eye_l", "eye_l"};
+    EXPECT_EQ(complaint(json),
+              "design.json:/clips/aois/1: expected each area once, found \"eye_l\" again");
+    json["clips"]["aois"] = {"eyes"};
+    EXPECT_EQ(complaint(json).substr(0, 39), "design.json:/clips/aois/0: expected one");
+    json["clips"] = {{"aoi_margin", 0.3}};
+    EXPECT_EQ(complaint(json).substr(0, 41), "design.json:/clips/aoi_margin: expected [");
+}
+
 TEST_F(Designs, ExperimentsAskForKeysAndKnownSets) {
     Json json = design();
     const auto with = [&](const char* more) {

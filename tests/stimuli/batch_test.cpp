@@ -252,6 +252,7 @@ TEST_F(Batch, FiltersAndNoiseChangeTheOvalAlone) {
         {"control": "noise", "snr_db": 0}, "oval", "mirrored", "mondrian",
         {"control": "point_light", "dots": 5, "radius": 0.06}])")));
     json["clips"].erase("photodiode");
+    json["clips"]["aois"] = {"eye_l", "mouth", "face"};
     std::ofstream(folder().path() / "oval.json") << json.dump();
     const BatchOptions options{
         .design = folder().path() / "oval.json", .out = folder().path() / "oval", .workers = 2};
@@ -303,6 +304,24 @@ TEST_F(Batch, FiltersAndNoiseChangeTheOvalAlone) {
     EXPECT_EQ(cell(other, "ch_l.x_mm"), -cell(rows, "ch_r.x_mm"));
     EXPECT_EQ(cell(other, "activation.zygomaticus_major.l"),
               cell(rows, "activation.zygomaticus_major.r"));
+    // Areas of interest follow the picture
+    const auto table_of_aois = [&](const std::string& clip) {
+        const fs::path file =
+            options.out / ("stimuli/stim-smile1" + clip + "_annot-aois_events.tsv");
+        return fs::exists(file) ? animate::frame_rows(text_of(file)) : animate::FrameRows{};
+    };
+    const animate::FrameRows aois = table_of_aois(""), aois_mirrored = table_of_aois("Mirrored");
+    ASSERT_EQ(aois.rows(), 3 * 5);
+    EXPECT_EQ(aois.cells[1][3], "mouth");
+    EXPECT_EQ(aois.cells[1][4], "1");
+    EXPECT_GT(aois.number(3 * 4 + 1, 5), 1.1 * aois.number(1, 5)) << "a smile widens the mouth";
+    EXPECT_GT(std::stod(aois.cells[0][6]), 24) << "the left eye is on the right";
+    EXPECT_GT(std::stod(aois_mirrored.cells[0][6]), 24);
+    EXPECT_EQ(table_of_aois("Mondrian").rows(), 0);
+    const Json key_frames = Json::parse(text_of(options.out / "aois/smile1_tobii.json"));
+    EXPECT_EQ(key_frames.at("aois").at(1).at("name"), "mouth");
+    EXPECT_EQ(key_frames.at("aois").at(1).at("key_frames").at(0).at("time"), 0);
+    EXPECT_GE(key_frames.at("aois").at(1).at("key_frames").size(), 2u);
     // A mask has the mean of the face, no landmarks and no moments
     const animate::FrameRows mask = rows_of("Mondrian");
     EXPECT_LT(mask.column("ch_l.u_px"), 0);
@@ -326,11 +345,10 @@ TEST_F(Batch, FiltersAndNoiseChangeTheOvalAlone) {
     EXPECT_LT(bright, 5 * 16);
     EXPECT_GT(background, 48 * 64 - 5 * 30);
     // What its name does not tell changes a control, too
+    const std::string before = plan_batch(options.design).clips[7].content_sha256;
     json["sets"][0]["controls"][6]["dots"] = 6;
     std::ofstream(folder().path() / "oval.json") << json.dump();
-    const BatchReport more = make_batch(options);
-    EXPECT_EQ(more.made, 1);
-    EXPECT_EQ(more.kept, 7);
+    EXPECT_NE(plan_batch(options.design).clips[7].content_sha256, before);
     json["sets"][0]["controls"] = Json::parse(R"([{"control": "mondrian", "rate_hz": 3}])");
     std::ofstream(folder().path() / "oval.json") << json.dump();
     EXPECT_NE(message_of([&] { make_batch(options); })

@@ -20,6 +20,7 @@
 #include "risorius/media/video_reader.h"
 #include "risorius/media/video_writer.h"
 #include "risorius/media/wav_file.h"
+#include "risorius/stimuli/detail/aois.h"
 #include "risorius/stimuli/detail/clip_pictures.h"
 #include "risorius/stimuli/detail/clip_plan.h"
 #include "risorius/stimuli/detail/expression_script.h"
@@ -113,16 +114,23 @@ double SettledMotions::at(const std::string& key, const std::function<double()>&
 std::vector<fs::path> ClipFiles::listed() const {
     std::vector<fs::path> files{script, strip, video, events, columns};
     if (!sound.empty()) files.push_back(sound);
+    if (!aois.empty()) files.insert(files.end(), {aois, aoi_columns, aoi_key_frames});
     return files;
 }
 
 ClipFiles clip_files(const ClipPlan& plan) {
+    const auto only = [&](const std::string& file) {
+        return plan.has_aois() ? fs::path(file) : fs::path();
+    };
     return {script_file(plan),
             fs::path("overview") / (plan.condition.clip + ".png"),
             stem(plan) + suffix(plan) + "." + plan.clips.ending,
             stem(plan) + "_annot-frames_events.tsv",
             stem(plan) + "_annot-frames_events.json",
             plan.sound ? fs::path(stem(plan) + "_audio.wav") : fs::path(),
+            only(stem(plan) + "_annot-aois_events.tsv"),
+            only(stem(plan) + "_annot-aois_events.json"),
+            only("aois/" + plan.condition.clip + "_tobii.json"),
             stem(plan) + suffix(plan) + ".json"};
 }
 
@@ -334,6 +342,12 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
     write_file(written[files.events], table);
     write_file(written[files.columns], frame_columns(table, plan));
     media::write_png(pictures.strip(), written[files.strip]);
+    if (plan.has_aois()) {
+        const AoiFiles aois = aoi_files(shown.rows, shown.order, plan);
+        write_file(written[files.aois], aois.table);
+        write_file(written[files.aoi_columns], aois.columns);
+        write_file(written[files.aoi_key_frames], aois.key_frames);
+    }
     if (plan.sound)
         media::write_wav(heard_of(*plan.sound, static_cast<double>(plan.frames) / plan.fps),
                          written[files.sound]);

@@ -8,6 +8,7 @@
 ///                                                columns of frame_table.h
 ///   stimuli/stim-NAME_annot-frames_events.json   what each column of that table is
 ///   stimuli/stim-NAME_video.json                 the sidecar: how the clip was made; it exists only when the clip is complete
+///   stimuli/stim-NAME_annot-aois_events.tsv      areas of interest, with their .json and aois/NAME_tobii.json; see aois.h
 ///   overview/NAME.png                            five of its frames side by side
 ///   code/scripts/NAME.json                       the script as it was played; it is written for the reader, not read back
 #pragma once
@@ -59,6 +60,7 @@ struct ClipPlan {
     std::string shown_sha256() const;  ///< of what a participant sees and hears, before matching
     double seconds() const;            ///< estimated time to make it on two cores
     double megabytes() const;          ///< estimated
+    bool has_aois() const;  ///< whether areas of interest are asked for, and it shows them
     bool is_control() const { return condition.control.kind != design::ControlKind::kNone; }
     /// Sets the tone; call it once, before the clip is made
     void match(const media::Tone& matched);
@@ -75,7 +77,8 @@ bool is_made(const ClipPlan& plan, const std::filesystem::path& folder);
 /// The paths of a clip's files below the folder of the set.
 struct ClipFiles {
     std::filesystem::path script, strip, video, events, columns;
-    std::filesystem::path sound;    ///< empty when there is none
+    std::filesystem::path sound;                              ///< empty when there is none
+    std::filesystem::path aois, aoi_columns, aoi_key_frames;  ///< empty when none are asked for
     std::filesystem::path sidecar;  ///< written last: a clip that has it is complete
     /// All files but the sidecar, which lists them.
     std::vector<std::filesystem::path> listed() const;

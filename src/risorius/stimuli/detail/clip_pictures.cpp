@@ -83,7 +83,13 @@ std::optional<std::string> shown(const std::string& column, const media::Picture
     return {};
 }
 
-/// The distance of the landmarks zy_l and zy_r in the first frame, px.
+bool is_of_landmark(const std::string& column) {
+    return column.ends_with(".x_mm") || column.ends_with(".y_mm") || column.ends_with(".z_mm") ||
+           column.ends_with(".u_px") || column.ends_with(".v_px");
+}
+
+}  // namespace
+
 double width_of_face(const animate::FrameRows& rows, const std::string& place) {
     const int left = rows.column("zy_l.u_px"), right = rows.column("zy_r.u_px");
     if (left < 0 || right < 0)
@@ -91,13 +97,6 @@ double width_of_face(const animate::FrameRows& rows, const std::string& place) {
     return std::hypot(rows.number(0, left) - rows.number(0, right),
                       rows.number(0, left + 1) - rows.number(0, right + 1));
 }
-
-bool is_of_landmark(const std::string& column) {
-    return column.ends_with(".x_mm") || column.ends_with(".y_mm") || column.ends_with(".z_mm") ||
-           column.ends_with(".u_px") || column.ends_with(".v_px");
-}
-
-}  // namespace
 
 void Window::show(const std::array<std::uint8_t, 3>& outside, Image& image) const {
     const double soft = 0.08 * (right - left);

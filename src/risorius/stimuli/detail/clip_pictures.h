@@ -29,6 +29,9 @@ bool shows_one_picture(design::ControlKind kind);
 /// Returns whether all frames are needed before the first one is written.
 bool needs_all_frames(const ClipPlan& plan);
 
+/// Returns the distance of the landmarks zy_l and zy_r in the first frame, px. Throws Error naming `place` when there are none.
+double width_of_face(const animate::FrameRows& rows, const std::string& place);
+
 /// A window with soft edges, px. Outside it, the background is shown.
 struct Window {
     double left = 0, top = 0, right = 0, bottom = 0;

@@ -55,6 +55,12 @@ double ClipPlan::megabytes() const {
            width_px * height_px;
 }
 
+bool ClipPlan::has_aois() const {
+    const design::Control& control = condition.control;
+    return !clips.aois.empty() && control.kind != ControlKind::kMondrian &&
+           !(control.kind == ControlKind::kPointLight && control.scattered);
+}
+
 std::string ClipPlan::shown_sha256() const {
     std::string shown = render_sha256;
     if (sound)
@@ -166,6 +172,7 @@ std::string content_sha256_of(const ClipPlan& plan) {
     // What the name of a control does not tell; older controls keep their checksums
     if (const Json unnamed = condition.control.unnamed(); !unnamed.is_null())
         content["control_keys"] = unnamed;
+    if (plan.has_aois()) content["aois"] = {{"names", clips.aois}, {"margin", clips.aoi_margin}};
     if (plan.lead_frames > 0) content["lead_frames"] = plan.lead_frames;
     if (plan.sound)
         content["sound"] = {{"file", plan.sound->sha256},

@@ -76,12 +76,14 @@ Json dataset_description(const BatchPlan& plan) {
 
 /// Files that BIDS does not know.
 constexpr const char* kBidsIgnore =
-    "SHA256SUMS\nindex.html\ntriggers.tsv\ncode/\nexperiment/\nluminance/\noverview/\n"
+    "SHA256SUMS\nindex.html\ntriggers.tsv\ncode/\nexperiment/\nluminance/\noverview/\naois/\n"
     "intermediate/\n*.new\n.risorius-*\n";
 /// The annotations of BEP044.
 constexpr const char* kAnnotations =
     "annot_id\tdescription\nannot-frames\tA row for each frame as it is shown: drive of the face, "
     "landmarks and luminance\n";
+constexpr const char* kAoiAnnotation =
+    "annot-aois\tA row for each frame and area of interest: its polygon in the picture\n";
 
 std::string overview(const std::string& name, const std::vector<Json>& records,
                      const std::vector<ClipPlan>& clips) {
@@ -181,7 +183,9 @@ std::vector<std::string> write_set(const BatchPlan& plan, const BatchOptions& op
     const Catalogue catalogue = catalogue_of(plan, records);
     write("stimuli/stimuli.tsv", catalogue.table);
     write("stimuli/stimuli.json", json_text(catalogue.columns, 2) + "\n");
-    write("stimuli/annotations.tsv", kAnnotations);
+    write("stimuli/annotations.tsv", plan.clips.front().clips.aois.empty()
+                                         ? kAnnotations
+                                         : std::string(kAnnotations) + kAoiAnnotation);
     write("triggers.tsv", triggers(records));
     // It may be the design that is read.
     if (std::error_code none; fs::equivalent(design, folder / "code/design.json", none))
