@@ -323,6 +323,16 @@ TEST_F(Designs, ControlsOfTheOvalNeedTheirNumbers) {
     EXPECT_EQ(with(R"("mirrored")"), "no error");
 }
 
+TEST_F(Designs, CodesTellConditionsOnRequest) {
+    Json json = design();
+    json["triggers"] = {{"codes", "condition"}, {"code_by", {"expression"}}};
+    EXPECT_EQ(complaint(json), "no error");
+    json["triggers"] = {{"code_by", {"expression"}}};
+    EXPECT_EQ(
+        complaint(json),
+        "design.json:/triggers/code_by: expected \"codes\": \"condition\" beside it, found none");
+}
+
 TEST_F(Designs, AreasOfInterestAreKnownOnes) {
     Json json = design();
     json["clips"]["aois"] = {"eye_l", "nose"};

@@ -269,7 +269,16 @@ Design read_design(const std::filesystem::path& file) {
         if (const auto text = v->find("copyright")) design.dataset.copyright = text->string();
     }
     if (const auto v = json.find("triggers")) {
-        v->allow_keys({"pulse_ms"});
+        v->allow_keys({"pulse_ms", "codes", "code_by"});
+        const auto codes = v->find("codes");
+        if (codes && codes->one_of({"moments", "condition"}) == "condition")
+            design.code_by = {"stim_id"};
+        if (const auto by = v->find("code_by")) {
+            if (design.code_by.empty()) by->fail("\"codes\": \"condition\" beside it", "none");
+            design.code_by.clear();
+            for (const JsonCursor& one : by->items()) design.code_by.push_back(one.string());
+            if (design.code_by.empty()) by->fail("at least one parameter", "none");
+        }
         if (const auto pulse = v->find("pulse_ms")) design.pulse_ms = pulse->number({1, 1000});
     }
     if (const auto v = json.find("parameters")) design.parameters = read_values(*v);

@@ -126,6 +126,8 @@ struct Design {
     std::optional<ExperimentOptions> experiment;
     DatasetOptions dataset;
     double pulse_ms = 10;  ///< minimum time that a trigger code stays on the line
+    /// Parameters, or "control", whose values choose the code of clip_on; "stim_id": each clip has its own. None: it is always 1.
+    std::vector<std::string> code_by;
     std::vector<Given> parameters;
     std::vector<ConditionSet> sets;
 };

@@ -134,6 +134,7 @@ BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped)
     for (const design::Condition& condition : conditions)
         plan.clips.push_back(
             plan_clip(condition, lead_s[condition.set], design, *plan.inputs, sounds));
+    plan.codes = codes_of_clips(plan.clips, design);
     share_renders(plan.clips);
     check_experiment(plan);
     note_twins(plan);
