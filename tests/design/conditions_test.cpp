@@ -308,6 +308,42 @@ TEST_F(Designs, ControlsOfTheOvalNeedTheirNumbers) {
     EXPECT_EQ(with(R"({"control": "high_pass", "cycles_per_face": 32, "contrast": "rms"})"),
               "no error");
     EXPECT_EQ(with(R"("oval")"), "no error");
+    EXPECT_NE(with(R"("band_pass")").find("\"cycles_per_face\""), std::string::npos);
+    EXPECT_NE(
+        with(R"({"control": "band_pass", "cycles_per_face": 8})").find("expected [low, high]"),
+        std::string::npos);
+    EXPECT_NE(with(R"({"control": "band_pass", "cycles_per_face": [16, 8]})")
+                  .find("/cycles_per_face/1: expected more than the lower end, found 8"),
+              std::string::npos);
+    EXPECT_EQ(with(R"({"control": "band_pass", "cycles_per_face": [8, 16]})"), "no error");
+    EXPECT_NE(with(R"({"control": "point_light", "dots": 94})").find("/dots: expected"),
+              std::string::npos);
+    EXPECT_EQ(with(R"({"control": "point_light", "scattered": true})"), "no error");
+    EXPECT_NE(with(R"({"control": "mondrian", "dots": 9})").find("dots"), std::string::npos);
+    EXPECT_EQ(with(R"("mirrored")"), "no error");
+}
+
+TEST_F(Designs, CodesTellConditionsOnRequest) {
+    Json json = design();
+    json["triggers"] = {{"codes", "condition"}, {"code_by", {"expression"}}};
+    EXPECT_EQ(complaint(json), "no error");
+    json["triggers"] = {{"code_by", {"expression"}}};
+    EXPECT_EQ(
+        complaint(json),
+        "design.json:/triggers/code_by: expected \"codes\": \"condition\" beside it, found none");
+}
+
+TEST_F(Designs, AreasOfInterestAreKnownOnes) {
+    Json json = design();
+    json["clips"]["aois"] = {"eye_l", "nose"};
+    EXPECT_EQ(complaint(json), "no error");
+    json["clips"]["aois"] = {"eye_l", "eye_l"};
+    EXPECT_EQ(complaint(json),
+              "design.json:/clips/aois/1: expected each area once, found \"eye_l\" again");
+    json["clips"]["aois"] = {"eyes"};
+    EXPECT_EQ(complaint(json).substr(0, 39), "design.json:/clips/aois/0: expected one");
+    json["clips"] = {{"aoi_margin", 0.3}};
+    EXPECT_EQ(complaint(json).substr(0, 41), "design.json:/clips/aoi_margin: expected [");
 }
 
 TEST_F(Designs, ExperimentsAskForKeysAndKnownSets) {

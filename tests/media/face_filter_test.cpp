@@ -55,6 +55,17 @@ TEST(FaceFilter, IsThreeDecibelsDownWhereItCutsAndTwentyFourAnOctaveOff) {
     EXPECT_NEAR(gain_db(high, 50), 0, 0.1);
 }
 
+TEST(FaceFilter, OfABandPassesOnlyWhatIsWithin) {
+    const PassFilter band{.high = true,
+                          .cut_cycles_per_px = 8.0 / kFilterSide,
+                          .low_cut_cycles_per_px = 24.0 / kFilterSide};
+    EXPECT_NEAR(gain_db(band, 8), -3, 0.2);
+    EXPECT_NEAR(gain_db(band, 24), -3, 0.2);
+    EXPECT_NEAR(gain_db(band, 14), 0, 0.1);
+    EXPECT_NEAR(gain_db(band, 4), -24, 1);
+    EXPECT_NEAR(gain_db(band, 48), -24, 1);
+}
+
 TEST(FaceFilter, RestoresTheDeviationOnRequest) {
     Image image = grating(8);
     LuminanceSums before, after;

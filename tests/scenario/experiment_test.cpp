@@ -238,7 +238,8 @@ TEST_F(Experiment, OfJsPsychIsPlayedInABrowserToItsEnd) {
     if (modules.empty()) GTEST_SKIP() << "no jsPsych here (tools/setup.sh test fetches it by npm)";
     if (run_program({"chromium", "--version"}).exit_code != 0) GTEST_SKIP() << "no chromium here";
     if (run_program({"python3", "--version"}).exit_code != 0) GTEST_SKIP() << "no python3 here";
-    fs::create_directory_symlink(modules, *folder / "node_modules");
+    if (!fs::exists(*folder / "node_modules"))
+        fs::create_directory_symlink(modules, *folder / "node_modules");
     const report::ProgramResult played =
         run_program({"python3", (kStandIns / "play.py").string(), folder->path().string(),
                      "set/experiment/index.html", (*folder / "data.json").string(), "chromium"});
@@ -264,6 +265,41 @@ TEST_F(Experiment, OfJsPsychIsPlayedInABrowserToItsEnd) {
     EXPECT_EQ(shown, (std::set<std::string>{"fear", "happiness"}));
     EXPECT_EQ(answered, 2);
     EXPECT_NE(said.find("&#34;Happy&#34; &#38; &#60;so&#62;?"), std::string::npos);
+}
+
+// The answers of a participant must outlive a server that is gone: as a file, and in the browser until they are saved.
+TEST_F(Experiment, OfJsPsychKeepsItsAnswersWhenTheyCannotBeSaved) {
+    const fs::path modules = jspsych();
+    if (modules.empty()) GTEST_SKIP() << "no jsPsych here (tools/setup.sh test fetches it by npm)";
+    if (run_program({"chromium", "--version"}).exit_code != 0) GTEST_SKIP() << "no chromium here";
+    if (run_program({"python3", "--version"}).exit_code != 0) GTEST_SKIP() << "no python3 here";
+    if (!fs::exists(*folder / "node_modules"))
+        fs::create_directory_symlink(modules, *folder / "node_modules");
+    const report::ProgramResult played = run_program(
+        {"python3", (kStandIns / "play.py").string(), folder->path().string(),
+         "set/experiment/index.html", (*folder / "left.json").string(), "chromium", "--dead-save"});
+    ASSERT_EQ(played.exit_code, 0) << played.output;
+    const std::string said = text_of(*folder / "left.json");
+    const Json left = Json::parse(said, nullptr, false);
+    ASSERT_TRUE(left.is_object()) << said;
+    const auto answers = [](const Json& trials) {
+        std::set<std::string> out;
+        for (const Json& trial : trials)
+            if (trial.value("task", "") == "answer" && trial.value("answer", "") == "happiness")
+                out.insert(trial.at("stim_id").get<std::string>());
+        return out;
+    };
+    const std::set<std::string> both{"fear", "happiness"};
+    ASSERT_EQ(left.at("kept").size(), 1u) << "runs";
+    EXPECT_EQ(answers(left.at("kept").at(0)), both);
+    EXPECT_EQ(left.at("file"), "data-7.csv");
+    const auto csv = left.at("csv").get<std::string>();
+    std::size_t rows = 0;
+    for (std::size_t at = 0; (at = csv.find("\"answer\"", at)) != std::string::npos; ++at) ++rows;
+    EXPECT_GE(rows, 3u) << "the heading and a row for each answer\n" << csv;
+    ASSERT_EQ(left.at("offered").size(), 1u);
+    EXPECT_NE(left.at("offered").at(0).get<std::string>().find("Which <one>? 7"), std::string::npos)
+        << left.at("offered");
 }
 
 TEST_F(Experiment, PageNamesTheVersionsAndHashesOfWhatItLoads) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -15,6 +17,7 @@
 #include "risorius/animate/frame_rows.h"
 #include "risorius/media/tone.h"
 #include "risorius/media/video_reader.h"
+#include "risorius/media/wav_file.h"
 #include "temporary_folder.h"
 #include "tools/risorius/check_files.h"
 
@@ -246,12 +249,14 @@ TEST_F(Batch, RefusesBeforeAnythingIsMade) {
 TEST_F(Batch, FiltersAndNoiseChangeTheOvalAlone) {
     Json json = Json::parse(text_of(design("oval.json", {1}, R"([
         {"control": "low_pass", "cycles_per_face": 3}, {"control": "high_pass", "cycles_per_face": 3},
-        {"control": "noise", "snr_db": 0}, "oval"])")));
+        {"control": "noise", "snr_db": 0}, "oval", "mirrored", "mondrian",
+        {"control": "point_light", "dots": 5, "radius": 0.06}])")));
     json["clips"].erase("photodiode");
+    json["clips"]["aois"] = {"eye_l", "mouth", "face"};
     std::ofstream(folder().path() / "oval.json") << json.dump();
     const BatchOptions options{
         .design = folder().path() / "oval.json", .out = folder().path() / "oval", .workers = 2};
-    EXPECT_EQ(make_batch(options).made, 5);
+    EXPECT_EQ(make_batch(options).made, 8);
     const auto frame_of = [&](const char* clip) {
         return media::VideoReader(options.out /
                                   ("stimuli/stim-smile1" + std::string(clip) + "_video.mkv"))
@@ -281,6 +286,75 @@ TEST_F(Batch, FiltersAndNoiseChangeTheOvalAlone) {
             }
         EXPECT_GT(changed, 200) << clip;
     }
+    // Mirrored: pictures, and the table with them
+    const auto rows_of = [&](const char* clip) {
+        return animate::frame_rows(
+            text_of(options.out / "stimuli" /
+                    ("stim-smile1" + std::string(clip) + "_annot-frames_events.tsv")));
+    };
+    const Image mirrored = frame_of("Mirrored");
+    const animate::FrameRows other = rows_of("Mirrored");
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 48; ++x) ASSERT_EQ(mirrored.pixel(x, y)[1], plain.pixel(47 - x, y)[1]);
+    const auto cell = [](const animate::FrameRows& of, const char* column) {
+        return of.number(2, of.column(column));
+    };
+    EXPECT_NEAR(cell(other, "ch_l.u_px"), 48 - cell(rows, "ch_r.u_px"), 1e-3);
+    EXPECT_EQ(cell(other, "ch_l.v_px"), cell(rows, "ch_r.v_px"));
+    EXPECT_EQ(cell(other, "ch_l.x_mm"), -cell(rows, "ch_r.x_mm"));
+    EXPECT_EQ(cell(other, "activation.zygomaticus_major.l"),
+              cell(rows, "activation.zygomaticus_major.r"));
+    // Areas of interest follow the picture
+    const auto table_of_aois = [&](const std::string& clip) {
+        const fs::path file =
+            options.out / ("stimuli/stim-smile1" + clip + "_annot-aois_events.tsv");
+        return fs::exists(file) ? animate::frame_rows(text_of(file)) : animate::FrameRows{};
+    };
+    const animate::FrameRows aois = table_of_aois(""), aois_mirrored = table_of_aois("Mirrored");
+    ASSERT_EQ(aois.rows(), 3 * 5);
+    EXPECT_EQ(aois.cells[1][3], "mouth");
+    EXPECT_EQ(aois.cells[1][4], "1");
+    EXPECT_GT(aois.number(3 * 4 + 1, 5), 1.1 * aois.number(1, 5)) << "a smile widens the mouth";
+    EXPECT_GT(std::stod(aois.cells[0][6]), 24) << "the left eye is on the right";
+    EXPECT_GT(std::stod(aois_mirrored.cells[0][6]), 24);
+    EXPECT_EQ(table_of_aois("Mondrian").rows(), 0);
+    const Json key_frames = Json::parse(text_of(options.out / "aois/smile1_tobii.json"));
+    EXPECT_EQ(key_frames.at("aois").at(1).at("name"), "mouth");
+    EXPECT_EQ(key_frames.at("aois").at(1).at("key_frames").at(0).at("time"), 0);
+    EXPECT_GE(key_frames.at("aois").at(1).at("key_frames").size(), 2u);
+    // A mask has the mean of the face, no landmarks and no moments
+    const animate::FrameRows mask = rows_of("Mondrian");
+    EXPECT_LT(mask.column("ch_l.u_px"), 0);
+    EXPECT_NE(
+        frame_of("Mondrian").rgba,
+        media::VideoReader(options.out / "stimuli/stim-smile1Mondrian_video.mkv").frame(1).rgba);
+    const Json sidecar =
+        Json::parse(text_of(options.out / "stimuli/stim-smile1Mondrian_video.json"));
+    EXPECT_TRUE(sidecar.at("movement_onset_frame").is_null());
+    EXPECT_TRUE(sidecar.at("motion").at("seen_mm").is_null());
+    // Dots on the landmarks alone
+    const Image dots = frame_of("PointLight");
+    EXPECT_GT(dots.pixel(nose_x, nose_y)[1], 230);
+    int bright = 0, background = 0;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 48; ++x) {
+            bright += dots.pixel(x, y)[1] > 200;
+            background += dots.pixel(x, y)[1] == 128;
+        }
+    EXPECT_GE(bright, 5);
+    EXPECT_LT(bright, 5 * 16);
+    EXPECT_GT(background, 48 * 64 - 5 * 30);
+    // What its name does not tell changes a control, too
+    const std::string before = plan_batch(options.design).clips[7].content_sha256;
+    json["sets"][0]["controls"][6]["dots"] = 6;
+    std::ofstream(folder().path() / "oval.json") << json.dump();
+    EXPECT_NE(plan_batch(options.design).clips[7].content_sha256, before);
+    json["sets"][0]["controls"] = Json::parse(R"([{"control": "mondrian", "rate_hz": 3}])");
+    std::ofstream(folder().path() / "oval.json") << json.dump();
+    EXPECT_NE(message_of([&] { make_batch(options); })
+                  .find("expected a rate_hz that divides the frames per second, for the control "
+                        "mondrian, found 3 at 10 fps"),
+              std::string::npos);
     json["sets"][0]["controls"] =
         Json::parse(R"([{"control": "low_pass", "cycles_per_face": 30}])");
     std::ofstream(folder().path() / "oval.json") << json.dump();
@@ -289,6 +363,57 @@ TEST_F(Batch, FiltersAndNoiseChangeTheOvalAlone) {
     EXPECT_NE(report.failed[0].second.find("expected a face of 120 px or more for this"),
               std::string::npos)
         << report.failed[0].second;
+}
+
+// A ladder of asynchronies: the same gain, nothing cut off, equal lengths, and sound minus movement as asked.
+TEST_F(Batch, BeginsBeforeALeadingSound) {
+    constexpr int kRate_hz = 8000;
+    media::Sound beep;
+    beep.rate_hz = kRate_hz;
+    for (int i = 0; i < kRate_hz / 2; ++i)
+        beep.samples.push_back(0.2f * static_cast<float>(std::cos(0.3 * i)));
+    media::write_wav(beep, folder().path() / "beep.wav");
+    Json json = Json::parse(text_of(design("early.json", {1})));
+    json["clips"].erase("photodiode");
+    json["match"]["loudness"]["lufs"] = -30;
+    Json& set = json["sets"][0];
+    set["audio"] = "beep.wav";
+    set["audio_start_s"] = "= 0.05 + soa_ms / 1000";
+    set["factors"]["soa_ms"] = {-230, 0, 80};
+    set["clip"] = "soa_${soa_ms}";
+    set["script"]["duration_s"] = 0.7;
+    std::ofstream(folder().path() / "early.json") << json.dump();
+    const BatchOptions options{
+        .design = folder().path() / "early.json", .out = folder().path() / "early", .workers = 2};
+    EXPECT_EQ(make_batch(options).made, 3);
+    std::map<int, Json> sidecars;
+    for (const auto& [soa_ms, clip] :
+         std::map<int, std::string>{{-230, "soaM230"}, {0, "soa0"}, {80, "soa80"}}) {
+        const fs::path stem = options.out / ("stimuli/stim-" + clip);
+        const Json sidecar = Json::parse(text_of(stem.string() + "_audiovideo.json"));
+        // 0.18 s before the script: two frames of 0.1 s
+        EXPECT_EQ(sidecar.at("frames"), 9);
+        const int onset = sidecar.at("movement_onset_frame");
+        EXPECT_GE(onset, 3);
+        EXPECT_NEAR(sidecar.at("motion").at("commanded_onset_s").get<double>(), 0.25, 1e-9);
+        media::VideoReader video(stem.string() + "_audiovideo.mkv");
+        ASSERT_EQ(video.frames(), 9);
+        EXPECT_EQ(video.frame(0).rgba, video.frame(2).rgba);
+        EXPECT_NE(video.frame(2).rgba, video.frame(onset + 1).rgba);
+        const media::Sound heard = media::read_sound(stem.string() + "_audio.wav");
+        const auto sounds = [](float sample) { return sample != 0; };
+        const auto first = std::find_if(heard.samples.begin(), heard.samples.end(), sounds);
+        const double sound_s = static_cast<double>(first - heard.samples.begin()) / kRate_hz;
+        EXPECT_NEAR(sound_s - 0.25, soa_ms / 1000.0, 1e-3) << clip;
+        EXPECT_NEAR(std::count_if(heard.samples.begin(), heard.samples.end(), sounds), kRate_hz / 2,
+                    5);
+        EXPECT_NEAR(sidecar.at("audio").at("gain_db").get<double>(),
+                    sidecars.empty()
+                        ? sidecar.at("audio").at("gain_db").get<double>()
+                        : sidecars.begin()->second.at("audio").at("gain_db").get<double>(),
+                    1e-9);
+        sidecars[soa_ms] = sidecar;
+    }
 }
 
 TEST_F(Batch, NotesWhatMayNotBeMeant) {

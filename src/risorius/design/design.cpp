@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/design/design.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -131,8 +132,8 @@ ConditionSet read_set(const JsonCursor& json, int seed) {
 }
 
 ClipOptions read_clips(const JsonCursor& json) {
-    json.allow_keys(
-        {"ending", "quality", "crf", "lossless", "landmarks", "photodiode", "keyframe_interval"});
+    json.allow_keys({"ending", "quality", "crf", "lossless", "landmarks", "photodiode",
+                     "keyframe_interval", "aois", "aoi_margin"});
     ClipOptions clips;
     if (const auto v = json.find("ending")) clips.ending = v->one_of({"mp4", "mov", "mkv", "webm"});
     if (const auto v = json.find("quality"))
@@ -143,6 +144,14 @@ ClipOptions read_clips(const JsonCursor& json) {
         json.at("crf").fail("no crf beside \"lossless\": true, which has no quality to choose");
     if (const auto v = json.find("keyframe_interval"))
         clips.keyframe_interval = v->integer(1, kMaxLevels);
+    if (const auto v = json.find("aois"))
+        for (const JsonCursor& one : v->items()) {
+            index_of_name(one.place(), one.string(), aoi_names());
+            if (std::count(clips.aois.begin(), clips.aois.end(), one.string()) > 0)
+                one.fail("each area once", risorius::in_quotes(one.string()) + " again");
+            clips.aois.push_back(one.string());
+        }
+    if (const auto v = json.find("aoi_margin")) clips.aoi_margin = v->number({0, 0.2});
     if (const auto v = json.find("landmarks")) clips.landmarks = v->boolean();
     if (const auto v = json.find("photodiode")) clips.photodiode = v->string();
     return clips;
@@ -231,6 +240,12 @@ void check_experiment(const JsonCursor& json, const Design& design) {
 
 }  // namespace
 
+const std::vector<std::string>& aoi_names() {
+    static const std::vector<std::string> kNames{"eye_l", "eye_r", "brow_l", "brow_r",
+                                                 "nose",  "mouth", "face"};
+    return kNames;
+}
+
 Design read_design(const std::filesystem::path& file) {
     const JsonCursor json = JsonCursor::read_file(file);
     json.at("format").one_of({"risorius-design"});
@@ -254,7 +269,16 @@ Design read_design(const std::filesystem::path& file) {
         if (const auto text = v->find("copyright")) design.dataset.copyright = text->string();
     }
     if (const auto v = json.find("triggers")) {
-        v->allow_keys({"pulse_ms"});
+        v->allow_keys({"pulse_ms", "codes", "code_by"});
+        const auto codes = v->find("codes");
+        if (codes && codes->one_of({"moments", "condition"}) == "condition")
+            design.code_by = {"stim_id"};
+        if (const auto by = v->find("code_by")) {
+            if (design.code_by.empty()) by->fail("\"codes\": \"condition\" beside it", "none");
+            design.code_by.clear();
+            for (const JsonCursor& one : by->items()) design.code_by.push_back(one.string());
+            if (design.code_by.empty()) by->fail("at least one parameter", "none");
+        }
         if (const auto pulse = v->find("pulse_ms")) design.pulse_ms = pulse->number({1, 1000});
     }
     if (const auto v = json.find("parameters")) design.parameters = read_values(*v);

@@ -59,7 +59,12 @@ struct ClipOptions {
     std::optional<std::string> photodiode;
     /// Frames from one key frame of the codec to the next; default: only the first frame of clips of up to 10 s
     std::optional<int> keyframe_interval;
+    std::vector<std::string> aois;  ///< areas of interest for eye tracking, of aoi_names()
+    double aoi_margin = 0.03;       ///< how much they are grown / width of the face, [0, 0.2]
 };
+
+/// The names of areas of interest.
+const std::vector<std::string>& aoi_names();
 
 /// Matches mean and standard deviation of luminance (media/tone.h) by an affine function of linear light. The background is not
 /// changed. Only conditions are measured; controls are mapped as their condition is.
@@ -121,6 +126,8 @@ struct Design {
     std::optional<ExperimentOptions> experiment;
     DatasetOptions dataset;
     double pulse_ms = 10;  ///< minimum time that a trigger code stays on the line
+    /// Parameters, or "control", whose values choose the code of clip_on; "stim_id": each clip has its own. None: it is always 1.
+    std::vector<std::string> code_by;
     std::vector<Given> parameters;
     std::vector<ConditionSet> sets;
 };

@@ -19,10 +19,19 @@ std::size_t index_of(const Image& image, int x, int y) {
            static_cast<std::size_t>(x);
 }
 
-double gain_at(const PassFilter& filter, double f) {
+double gain_of_pass(const PassFilter& filter, double f) {
     if (f <= 0) return filter.high ? 0 : 1;
     const double ratio = filter.high ? filter.cut_cycles_per_px / f : f / filter.cut_cycles_per_px;
     return 1 / std::sqrt(1 + std::pow(ratio, 2 * filter.order));
+}
+
+double gain_at(const PassFilter& filter, double f) {
+    const double gain = gain_of_pass(filter, f);
+    if (!filter.low_cut_cycles_per_px) return gain;
+    return gain * gain_of_pass({.high = false,
+                                .cut_cycles_per_px = *filter.low_cut_cycles_per_px,
+                                .order = filter.order},
+                               f);
 }
 
 /// The mean of each channel within w.

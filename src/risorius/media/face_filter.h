@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "risorius/core/image.h"
@@ -20,7 +21,9 @@ namespace risorius::media {
 struct PassFilter {
     bool high = false;               ///< high-pass, else low-pass
     double cut_cycles_per_px = 0.1;  ///< fc
-    int order = 4;                   ///< n
+    /// fc of a low-pass filter that follows; a high-pass filter becomes a band-pass filter with it
+    std::optional<double> low_cut_cycles_per_px = {};
+    int order = 4;         ///< n
     bool keep_sd = false;  ///< whether the standard deviation of luminance within w is restored
 };
 

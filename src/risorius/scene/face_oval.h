@@ -19,6 +19,7 @@ class FaceOval {
     explicit FaceOval(std::vector<Vec2> points);
 
     bool contains(const Vec2& point) const;
+    const std::vector<Vec2>& border() const { return border_; }
     /// Weights of all pixels of a picture, row by row: 1 inside, and outside a raised cosine that falls to 0 over `rim` of the oval's
     /// width.
     std::vector<float> soft_pixels(int width_px, int height_px, double rim) const;

@@ -126,8 +126,15 @@ BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped)
                           const fs::path& folder, const std::string& place) {
         return motion.intensity_for(share, script_at, folder, place);
     };
-    for (const design::Condition& condition : design::conditions_of(design, find))
-        plan.clips.push_back(plan_clip(condition, design, *plan.inputs, sounds));
+    const std::vector<design::Condition> conditions = design::conditions_of(design, find);
+    // All clips of a set begin as early as its earliest recording, so that they are equally long.
+    std::map<std::string, double> lead_s;
+    for (const design::Condition& condition : conditions)
+        lead_s[condition.set] = std::max(lead_s[condition.set], -condition.audio_start_s);
+    for (const design::Condition& condition : conditions)
+        plan.clips.push_back(
+            plan_clip(condition, lead_s[condition.set], design, *plan.inputs, sounds));
+    plan.codes = codes_of_clips(plan.clips, design);
     share_renders(plan.clips);
     check_experiment(plan);
     note_twins(plan);

@@ -14,6 +14,7 @@
 #include "risorius/core/json_cursor.h"
 #include "risorius/core/progress_monitor.h"
 #include "risorius/stimuli/detail/clip.h"
+#include "risorius/stimuli/detail/trigger_codes.h"
 
 namespace risorius::stimuli {
 
@@ -37,6 +38,7 @@ struct BatchPlan {
     design::Match match;
     std::optional<design::ExperimentOptions> experiment;
     double pulse_ms = 10;  ///< see design::Design
+    CodesOfClips codes;
     design::DatasetOptions dataset;
     /// For each set of conditions that uses only a part of its crossing: how balanced that part is (design/detail/crossing.h). The key
     /// is its name.

@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: MIT
 """Plays the page of an experiment in a headless browser as a participant would, and keeps the data it sends.
 
-    play.py ROOT PAGE DATA BROWSER...
+    play.py ROOT PAGE DATA BROWSER... [--dead-save]
 
 ROOT is served on the loopback, PAGE is the page below it, DATA the file for what the page posts. Keys are pressed where it
 waits for one: "a" for every answer. Fails when nothing is posted within two minutes.
+
+With --dead-save the address that the page saves to answers 503. DATA then gets what is left to the participant: the file that
+the page offers, the trials that the browser keeps, and the names that the page offers when it is opened again.
 """
 import functools
 import http.server
@@ -14,15 +17,39 @@ import sys
 import tempfile
 import threading
 
-root, page, data, *browser = sys.argv[1:]
+dead = "--dead-save" in sys.argv
+root, page, data, *browser = [one for one in sys.argv[1:] if one != "--dead-save"]
 posted = threading.Event()
 
 PARTICIPANT = """<!doctype html><title>participant</title>
-<iframe id="experiment" src="/PAGE?save=/data&seed=1&participant=7" width="900" height="700" allow="autoplay"></iframe>
+<iframe id="experiment" src="/PAGE?save=/SAVE&seed=1&participant=7" width="900" height="700" allow="autoplay"></iframe>
 <script>
-setInterval(() => {
-    const page = document.getElementById('experiment').contentDocument;
-    if (!page || !page.querySelector('kbd')) return;
+const experiment = document.getElementById('experiment');
+const kept = () => new Promise((resolve) => {
+    const open = indexedDB.open('risorius', 1);
+    open.onsuccess = () => {
+        const request = open.result.transaction('runs').objectStore('runs').getAll();
+        request.onsuccess = () => resolve(request.result.map((text) => JSON.parse(text)));
+    };
+});
+let left = null;
+setInterval(async () => {
+    const page = experiment.contentDocument;
+    if (!page) return;
+    const unsaved = page.querySelector('#unsaved');
+    if (unsaved && !left) {
+        left = {};
+        const link = page.querySelector('a[download]');
+        left = {file: link.download, csv: await (await fetch(link.href)).text(), kept: await kept()};
+        experiment.contentWindow.location.reload();
+        return;
+    }
+    if (left) {
+        const offered = [...page.querySelectorAll('#left a')].map((link) => link.download);
+        if (left.kept && offered.length) fetch('/data', {method: 'POST', body: JSON.stringify({...left, offered})});
+        return;
+    }
+    if (!page.querySelector('kbd')) return;
     for (const kind of ['keydown', 'keyup'])
         page.querySelector('.jspsych-content').dispatchEvent(new KeyboardEvent(kind, {key: 'a', bubbles: true}));
 }, 100);
@@ -31,7 +58,7 @@ document.getElementById('experiment').addEventListener('load', (event) => {
         fetch('/data', {method: 'POST', body: 'error: ' + error.message}));
 });
 </script>
-""".replace("PAGE", page)
+""".replace("PAGE", page).replace("SAVE", "nowhere" if dead else "data")
 
 
 class Server(http.server.SimpleHTTPRequestHandler):
@@ -46,6 +73,9 @@ class Server(http.server.SimpleHTTPRequestHandler):
 
     def do_POST(self):
         body = self.rfile.read(int(self.headers["Content-Length"]))
+        if self.path != "/data":
+            self.send_error(503)
+            return
         with open(data, "wb") as file:
             file.write(body)
         self.send_response(204)

@@ -15,9 +15,10 @@ namespace risorius::design {
 
 const std::vector<std::string>& control_names() {
     static const std::vector<std::string> kNames{
-        "reversed",   "scrambled", "apex",    "upside_down", "phase_scrambled", "eyes_only",
-        "mouth_only", "flipped",   "neutral", "knock_out",   "palsy",           "late_side",
-        "low_pass",   "high_pass", "oval",    "noise"};
+        "reversed",  "scrambled",  "apex",      "upside_down", "phase_scrambled",
+        "eyes_only", "mouth_only", "flipped",   "neutral",     "knock_out",
+        "palsy",     "late_side",  "low_pass",  "high_pass",   "oval",
+        "noise",     "mirrored",   "band_pass", "point_light", "mondrian"};
     return kNames;
 }
 
@@ -34,6 +35,10 @@ bool Control::shows_otherwise() const {
         case ControlKind::kHighPass:
         case ControlKind::kOval:
         case ControlKind::kNoise:
+        case ControlKind::kMirrored:
+        case ControlKind::kBandPass:
+        case ControlKind::kPointLight:
+        case ControlKind::kMondrian:
             return true;
         case ControlKind::kNone:
         case ControlKind::kFlipped:
@@ -47,9 +52,27 @@ bool Control::shows_otherwise() const {
 }
 
 bool Control::changes_the_oval() const {
-    return kind == ControlKind::kPhaseScrambled || kind == ControlKind::kLowPass ||
-           kind == ControlKind::kHighPass || kind == ControlKind::kOval ||
-           kind == ControlKind::kNoise;
+    return passes() || kind == ControlKind::kPhaseScrambled || kind == ControlKind::kOval ||
+           kind == ControlKind::kNoise || kind == ControlKind::kPointLight ||
+           kind == ControlKind::kMondrian;
+}
+
+bool Control::passes() const {
+    return kind == ControlKind::kLowPass || kind == ControlKind::kHighPass ||
+           kind == ControlKind::kBandPass;
+}
+
+bool Control::is_random() const {
+    return kind == ControlKind::kScrambled || kind == ControlKind::kPhaseScrambled ||
+           kind == ControlKind::kNoise || kind == ControlKind::kMondrian ||
+           (kind == ControlKind::kPointLight && scattered);
+}
+
+Json Control::unnamed() const {
+    if (passes()) return {{"order", order}, {"rms", keep_contrast}};
+    if (kind == ControlKind::kPointLight) return {{"dots", dots}, {"radius", radius}};
+    if (kind == ControlKind::kMondrian) return {{"rate_hz", rate_hz}, {"grey", grey}};
+    return {};
 }
 
 std::string Control::name() const {
@@ -58,12 +81,36 @@ std::string Control::name() const {
     if (kind == ControlKind::kKnockOut) return clip_word("without_" + muscle);
     if (kind == ControlKind::kLowPass || kind == ControlKind::kHighPass)
         return clip_word(plain + "_" + format_number(cycles_per_face));
+    if (kind == ControlKind::kBandPass)
+        return clip_word(plain + "_" + format_number(cycles_per_face) + "_to_" +
+                         format_number(upper_cycles_per_face));
+    if (kind == ControlKind::kPointLight && scattered) return clip_word(plain + "_scattered");
     if (kind == ControlKind::kNoise)
         return clip_word(plain + (snr_db < 0 ? "_m" : "_") + format_number(std::abs(snr_db)));
     if (kind == ControlKind::kPalsy || kind == ControlKind::kLateSide)
         return clip_word(plain + "_" + side);
     return clip_word(plain);
 }
+
+namespace {
+
+constexpr int kMaxDots = 93;  // there are so many landmarks on the face
+
+/// One number, or the two ends of a band.
+void read_cycles(const JsonCursor& json, Control& control) {
+    if (control.kind != ControlKind::kBandPass) {
+        control.cycles_per_face = json.number({0.1, 200});
+        return;
+    }
+    if (!json.is_array() || json.items().size() != 2) json.fail("[low, high]");
+    control.cycles_per_face = json.items()[0].number({0.1, 200});
+    control.upper_cycles_per_face = json.items()[1].number({0.1, 200});
+    if (control.upper_cycles_per_face <= control.cycles_per_face)
+        json.items()[1].fail("more than the lower end",
+                             format_number(control.upper_cycles_per_face));
+}
+
+}  // namespace
 
 Control read_control(const JsonCursor& json) {
     Control control;
@@ -72,8 +119,7 @@ Control read_control(const JsonCursor& json) {
         static_cast<ControlKind>(index_of_name(name.place(), name.string(), control_names()) + 1);
     const bool one_side =
         control.kind == ControlKind::kPalsy || control.kind == ControlKind::kLateSide;
-    const bool passes =
-        control.kind == ControlKind::kLowPass || control.kind == ControlKind::kHighPass;
+    const bool passes = control.passes();
     if (!json.is_object()) {
         if (passes) json.fail("an object with \"control\" and \"cycles_per_face\"");
         if (control.kind == ControlKind::kNoise)
@@ -90,9 +136,12 @@ Control read_control(const JsonCursor& json) {
     if (control.kind == ControlKind::kLateSide) keys.push_back("late_s");
     if (passes) keys.insert(keys.end(), {"cycles_per_face", "order", "contrast"});
     if (control.kind == ControlKind::kNoise) keys.push_back("snr_db");
+    if (control.kind == ControlKind::kPointLight)
+        keys.insert(keys.end(), {"dots", "radius", "scattered"});
+    if (control.kind == ControlKind::kMondrian) keys.insert(keys.end(), {"rate_hz", "grey"});
     json.allow_keys(keys);
     if (passes) {
-        control.cycles_per_face = json.at("cycles_per_face").number({0.1, 200});
+        read_cycles(json.at("cycles_per_face"), control);
         if (const auto v = json.find("order")) control.order = v->integer(1, 16);
         if (const auto v = json.find("contrast"))
             control.keep_contrast = v->one_of({"keep", "rms"}) == "rms";
@@ -100,6 +149,11 @@ Control read_control(const JsonCursor& json) {
     if (control.kind == ControlKind::kNoise) control.snr_db = json.at("snr_db").number({-40, 40});
     if (control.kind == ControlKind::kKnockOut) control.muscle = json.at("muscle").string();
     if (one_side) control.side = json.at("side").one_of({"left", "right"});
+    if (const auto v = json.find("dots")) control.dots = v->integer(2, kMaxDots);
+    if (const auto v = json.find("radius")) control.radius = v->number({0.001, 0.1});
+    if (const auto v = json.find("scattered")) control.scattered = v->boolean();
+    if (const auto v = json.find("rate_hz")) control.rate_hz = v->number({0.1, 240});
+    if (const auto v = json.find("grey")) control.grey = v->boolean();
     if (const auto v = json.find("weakness")) control.weakness = v->number({0, 1});
     if (const auto v = json.find("late_s")) control.late_s = v->number({0, 10});
     if (const auto when = json.find("when"))

@@ -30,7 +30,11 @@ enum class ControlKind {
     kLowPass,         ///< only low spatial frequencies within the oval of the face
     kHighPass,        ///< only high ones
     kOval,            ///< only the oval of the face, with a soft rim
-    kNoise            ///< noise of luminance over the oval of the face
+    kNoise,           ///< noise of luminance over the oval of the face
+    kMirrored,        ///< left and right exchanged
+    kBandPass,        ///< only middle spatial frequencies within the oval of the face
+    kPointLight,      ///< only white dots where landmarks of the face are
+    kMondrian         ///< random rectangles, to mask the face from the other eye
 };
 
 /// The names of controls in design files, in the order of the enumeration from kReversed on.
@@ -43,18 +47,31 @@ struct Control {
     std::string side;     ///< kPalsy, kLateSide: "left" or "right"
     double weakness = 1;  ///< kPalsy: missing fraction of the strength, [0, 1]
     double late_s = 0.1;  ///< kLateSide: delay
-    /// kLowPass, kHighPass: where the gain is -3 dB, in cycles per width of the face between zy_l and zy_r; (0, 200]
+    /// kLowPass, kHighPass, kBandPass: where the gain is -3 dB, in cycles per width of the face between zy_l and zy_r; (0, 200]
     double cycles_per_face = 8;
-    int order = 4;  ///< kLowPass, kHighPass: of the Butterworth filter, [1, 16]
+    double upper_cycles_per_face =
+        16;         ///< kBandPass: the upper end; cycles_per_face is the lower one
+    int order = 4;  ///< of these three: of the Butterworth filter, [1, 16]
     bool keep_contrast =
-        false;  ///< kLowPass, kHighPass: whether the standard deviation of luminance is restored
+        false;          ///< of these three: whether the standard deviation of luminance is restored
     double snr_db = 0;  ///< kNoise: power of the picture / power of the noise, [-40, 40]
+    int dots = 60;      ///< kPointLight: their number, [2, 93]
+    double radius = 0.01;    ///< kPointLight: of a dot / width of the face, [0.001, 0.1]
+    bool scattered = false;  ///< kPointLight: whether each dot begins its way at a random place
+    double rate_hz = 10;     ///< kMondrian: patterns per second, (0, 240]
+    bool grey = true;        ///< kMondrian: whether the rectangles have no colour
     std::map<std::string, Json> when;  ///< only conditions with these values get the control
 
     /// Returns whether the control changes only how the pictures of the condition are shown, and not the face.
     bool shows_otherwise() const;
     /// Returns whether the control changes the picture within the oval of the face, and so needs its opacity.
     bool changes_the_oval() const;
+    /// Returns whether it is one of the filters kLowPass, kHighPass, kBandPass.
+    bool passes() const;
+    /// Returns whether its pictures depend on Condition::seed.
+    bool is_random() const;
+    /// Returns what its pictures depend on and name() does not tell; null for most controls.
+    Json unnamed() const;
     std::string name() const;  ///< the name in file names: "reversed", "withoutZygomaticusMajorL"
 };
 

@@ -16,18 +16,18 @@
 #include "risorius/core/output_set.h"
 #include "risorius/core/read_file.h"
 #include "risorius/core/sha256.h"
-#include "risorius/core/version.h"
 #include "risorius/media/image_file.h"
-#include "risorius/media/sync_marks.h"
 #include "risorius/media/video_reader.h"
 #include "risorius/media/video_writer.h"
 #include "risorius/media/wav_file.h"
+#include "risorius/stimuli/detail/aois.h"
 #include "risorius/stimuli/detail/clip_pictures.h"
+#include "risorius/stimuli/detail/clip_plan.h"
 #include "risorius/stimuli/detail/expression_script.h"
 #include "risorius/stimuli/detail/frame_columns.h"
+#include "risorius/stimuli/detail/mirrored_rows.h"
 #include "risorius/stimuli/detail/seen_motion.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
-#include "risorius/track/timeline.h"
 
 namespace risorius::stimuli {
 
@@ -35,21 +35,6 @@ namespace fs = std::filesystem;
 using design::ControlKind;
 
 namespace {
-
-// Estimates for two cores: seconds per clip, per frame and per pixel, and bytes per pixel
-constexpr double kClip_s = 0.1, kFrame_s = 0.04, kPixel_s = 1e-7, kByte_px = 0.03,
-                 kLosslessByte_px = 1.2;
-constexpr int kOneKeyframe_s = 10;        // shorter clips have only one key frame
-constexpr double kMaxHeld_bytes = 0.6e9;  // limit for frames that are kept in memory
-
-/// The positions in a script that name a file.
-std::vector<Json::json_pointer> file_keys(const Json& script) {
-    std::vector<Json::json_pointer> out;
-    for (const char* key : {"/rig", "/emg/file", "/view/light/file"})
-        if (const Json::json_pointer at(key); script.contains(at) && script.at(at).is_string())
-            out.push_back(at);
-    return out;
-}
 
 /// The script with its relative paths rewritten for another folder.
 Json relocated(Json script, const fs::path& from, const fs::path& to) {
@@ -70,26 +55,6 @@ std::string stem(const ClipPlan& plan) { return "stimuli/stim-" + plan.condition
 
 /// The suffix of BIDS for a video without and with sound.
 std::string suffix(const ClipPlan& plan) { return plan.sound ? "_audiovideo" : "_video"; }
-
-/// Whether the script moves the head in any frame.
-bool moves_the_head(const track::ScriptDescription& script, const track::ChannelTable& channels,
-                    const ClipPlan& plan) {
-    const track::Timeline timeline(script, channels);
-    for (int frame = 0; frame < plan.frames; ++frame) {
-        const track::Drive drive = timeline.at(static_cast<double>(frame) / plan.fps);
-        for (int k = static_cast<int>(track::Kinematic::kHeadYaw);
-             k <= static_cast<int>(track::Kinematic::kHeadSide); ++k)
-            if (drive.kinematic[static_cast<std::size_t>(k)] != 0) return true;
-    }
-    return false;
-}
-
-/// Frames from one key frame to the next; none for endings in which every frame is one.
-std::optional<int> keyframe_interval(const ClipPlan& plan) {
-    if (plan.clips.ending == "mkv") return {};
-    // A key frame is coded anew, which shows as a pulse in a face that does not move.
-    return plan.clips.keyframe_interval.value_or(std::min(plan.frames, kOneKeyframe_s * plan.fps));
-}
 
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
@@ -136,24 +101,6 @@ std::string text_of_file(const fs::path& file) {
     return read_file(file, {"a text file", 256 * kMegabyte});
 }
 
-double ClipPlan::seconds() const {
-    return kClip_s + frames * (kFrame_s + kPixel_s * width_px * height_px);
-}
-double ClipPlan::megabytes() const {
-    const double unmatched = luminance ? kLosslessByte_px : 0;
-    return 1e-6 * frames *
-           (unmatched + (clips.lossless || clips.ending == "mkv" ? kLosslessByte_px : kByte_px)) *
-           width_px * height_px;
-}
-
-std::string ClipPlan::shown_sha256() const {
-    std::string shown = render_sha256;
-    if (sound)
-        shown += sound->sha256 + " " + std::to_string(sound->offset_samples) + " " +
-                 format_number(sound->gain_db);
-    return shown;
-}
-
 double SettledMotions::at(const std::string& key, const std::function<double()>& measure) {
     {
         const std::lock_guard lock(mutex_);
@@ -164,153 +111,26 @@ double SettledMotions::at(const std::string& key, const std::function<double()>&
     return known_.emplace(key, value).first->second;
 }
 
-void ClipPlan::match(const media::Tone& matched) {
-    tone = matched;
-    content_sha256 = animate::sha256_of_text(json_text(
-        Json{{"content", content_sha256}, {"gain", tone->gain}, {"offset", tone->offset}}));
-}
-
-namespace {
-
-/// The name of a condition's script in messages: that of the design, in the folder to which its relative paths refer.
-std::string script_name(const design::Condition& condition, const fs::path& design) {
-    const std::string file = condition.folder == design.parent_path()
-                                 ? design.filename().string()
-                                 : "script of " + design.filename().string();
-    return (condition.folder / (file + ", clip " + condition.clip)).string();
-}
-
-/// One checksum for rig, mesh and tables.
-std::string sha256_of_rig(const animate::RigInput& rig) {
-    std::string digests = rig.rig.sha256 + rig.mesh.sha256;
-    for (const animate::InputFile& table : rig.tables) digests += table.sha256;
-    return animate::sha256_of_text(digests);
-}
-
-/// Throws Error when the script is not suitable for the control.
-void check_control(const ClipPlan& plan, const track::ScriptDescription& script,
-                   const track::ChannelTable& channels, const std::string& place) {
-    const design::ControlKind kind = plan.condition.control.kind;
-    if (needs_all_frames(plan) &&
-        4.0 * plan.frames * plan.width_px * plan.height_px > kMaxHeld_bytes)
-        throw Error(place,
-                    "fewer or smaller frames for the control " + plan.condition.control.name() +
-                        ", which keeps them in memory",
-                    std::to_string(plan.frames) + " of " + std::to_string(plan.width_px) + " x " +
-                        std::to_string(plan.height_px));
-    if (kind == design::ControlKind::kFlipped && moves_the_head(script, channels, plan))
-        throw Error(place, "a head that does not move, for the control flipped",
-                    "one that the script moves");
-}
-
-/// The checksum of everything that the unmatched pictures depend on.
-std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256) {
-    const design::Condition& condition = plan.condition;
-    Json rendered{{"toolkit", kVersion},
-                  {"compiler", __VERSION__},
-                  {"script", condition.script},
-                  {"rig", rig_sha256},
-                  {"quality", plan.clips.quality},
-                  {"layers", plan.luminance.has_value()},
-                  {"flipped", condition.control.kind == design::ControlKind::kFlipped},
-                  {"within", plan.luminance && plan.luminance->within_face ? "face" : "picture"}};
-    for (const Json::json_pointer& key : file_keys(condition.script)) {
-        rendered["script"][key] = "";
-        const fs::path file = condition.script.at(key).get<std::string>();
-        if (key.to_string() != "/rig")
-            rendered["files"].push_back(
-                sha256_of_file(file.is_relative() ? condition.folder / file : file));
-    }
-    return animate::sha256_of_text(json_text(rendered));
-}
-
-/// Changes when clips are made or measured in another way, so that older ones are made anew.
-constexpr int kWayOfMaking = 2;
-
-Json or_none(const std::optional<int>& value) { return value ? Json(*value) : Json(); }
-
-/// The checksum of everything that the clip depends on.
-std::string content_sha256_of(const ClipPlan& plan) {
-    const design::Condition& condition = plan.condition;
-    const design::ClipOptions& clips = plan.clips;
-    const design::ControlKind kind = condition.control.kind;
-    Json content{{"film", plan.render_sha256},  // the key is part of the hashed text
-                 {"control", condition.control.name()},
-                 {"seed", kind == design::ControlKind::kScrambled ||
-                                  kind == design::ControlKind::kPhaseScrambled
-                              ? condition.seed
-                              : 0u},
-                 {"ending", clips.ending},
-                 {"crf", clips.crf ? Json(*clips.crf) : Json()},
-                 {"lossless", clips.lossless},
-                 {"landmarks", clips.landmarks},
-                 {"keyframes", or_none(keyframe_interval(plan))},
-                 {"made_by", kWayOfMaking},
-                 {"photodiode", clips.photodiode ? Json(*clips.photodiode) : Json()}};
-    if (plan.sound)
-        content["sound"] = {{"file", plan.sound->sha256},
-                            {"offset_samples", plan.sound->offset_samples},
-                            {"gain_db", plan.sound->gain_db}};
-    return animate::sha256_of_text(json_text(content));
-}
-
-}  // namespace
-
-ClipPlan plan_clip(const design::Condition& condition, const design::Design& design,
-                   animate::RenderInputs& inputs, SoundPlans& sounds) {
-    const design::ClipOptions& clips = design.clips;
-    ClipPlan plan;
-    plan.condition = condition;
-    plan.clips = clips;
-    plan.luminance = design.match.luminance;
-    plan.script_name = script_name(condition, design.file);
-    const JsonCursor json = JsonCursor::from_json(condition.script, plan.script_name);
-    const track::ScriptHeader header = track::read_script_header(json);
-    const std::shared_ptr<const animate::RigInput> input = inputs.rig(header.rig_file);
-    const rig::RigDescription& rig = input->files.rig;
-    const track::ChannelTable channels = rig.channels();
-    const track::ScriptDescription script =
-        track::read_script(json, channels, rig.facs, rig.expressions);
-    plan.frames = header.frame_count();
-    plan.fps = header.fps;
-    plan.width_px = header.view.width_px;
-    plan.height_px = header.view.height_px;
-    plan.transparent = header.view.transparent;
-    for (std::size_t k = 0; k < 3; ++k)
-        plan.background[k] =
-            static_cast<std::uint8_t>(std::lround(255 * header.view.background_rgb[k]));
-    check_control(plan, script, channels, json.place());
-    if (clips.photodiode) media::corner_named(*clips.photodiode, "clips/photodiode");
-    media::check_target("clips." + clips.ending, {.width_px = plan.width_px,
-                                                  .height_px = plan.height_px,
-                                                  .fps = plan.fps,
-                                                  .crf = clips.crf,
-                                                  .keyframe_interval = clips.keyframe_interval,
-                                                  .lossless = clips.lossless});
-    if (condition.audio)
-        plan.sound = sounds.at(condition, static_cast<double>(plan.frames) / plan.fps,
-                               design.match.loudness_lufs, json.place());
-    const std::string rig_sha256 = sha256_of_rig(*input);
-    plan.scene_sha256 = animate::sha256_of_text(
-        json_text(Json{rig_sha256, clips.quality, condition.script.value("view", Json())}));
-    plan.render_sha256 = render_sha256_of(plan, rig_sha256);
-    plan.content_sha256 = content_sha256_of(plan);
-    return plan;
-}
-
 std::vector<fs::path> ClipFiles::listed() const {
     std::vector<fs::path> files{script, strip, video, events, columns};
     if (!sound.empty()) files.push_back(sound);
+    if (!aois.empty()) files.insert(files.end(), {aois, aoi_columns, aoi_key_frames});
     return files;
 }
 
 ClipFiles clip_files(const ClipPlan& plan) {
+    const auto only = [&](const std::string& file) {
+        return plan.has_aois() ? fs::path(file) : fs::path();
+    };
     return {script_file(plan),
             fs::path("overview") / (plan.condition.clip + ".png"),
             stem(plan) + suffix(plan) + "." + plan.clips.ending,
             stem(plan) + "_annot-frames_events.tsv",
             stem(plan) + "_annot-frames_events.json",
             plan.sound ? fs::path(stem(plan) + "_audio.wav") : fs::path(),
+            only(stem(plan) + "_annot-aois_events.tsv"),
+            only(stem(plan) + "_annot-aois_events.json"),
+            only("aois/" + plan.condition.clip + "_tobii.json"),
             stem(plan) + suffix(plan) + ".json"};
 }
 
@@ -380,14 +200,14 @@ struct ShownClip {
 };
 
 /// When the strongest expression of a script is told to begin and to be complete.
-void find_commanded(const track::ScriptDescription& script, ShownClip& shown) {
+void find_commanded(const track::ScriptDescription& script, double lead_s, ShownClip& shown) {
     const track::ExpressionEvent* strongest = nullptr;
     for (const track::ExpressionEvent& event : script.expressions) {
         if (!strongest || event.intensity > strongest->intensity) strongest = &event;
         shown.commanded_onset_s =
-            std::min(shown.commanded_onset_s.value_or(event.start_s), event.start_s);
+            std::min(shown.commanded_onset_s.value_or(INFINITY), lead_s + event.start_s);
     }
-    if (strongest) shown.commanded_apex_s = strongest->start_s + strongest->onset_s;
+    if (strongest) shown.commanded_apex_s = lead_s + strongest->start_s + strongest->onset_s;
 }
 
 /// SeenMotion::full_mm of a clip.
@@ -425,7 +245,10 @@ ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
         twin = animate::play_landmarks(*without, worker.session, worker.monitor);
     const design::Control& control = plan.condition.control;
     const auto order_with = [&](int apex) {
-        return design::frame_order(control, job.frames, apex, plan.condition.seed);
+        std::vector<int> order =
+            design::frame_order(control, job.frames, apex, plan.condition.seed);
+        order.insert(order.begin(), static_cast<std::size_t>(plan.lead_frames), order.front());
+        return order;
     };
     int apex = 0;
     if (control.kind == ControlKind::kApex) {
@@ -434,10 +257,14 @@ ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
         apex = seen_motion(shown.rows, twin, forwards, plan.fps).apex.value_or(0);
     }
     shown.order = order_with(apex);
-    shown.motion = seen_motion(shown.rows, twin, shown.order, plan.fps);
+    // A mask shows no face.
+    if (control.kind != ControlKind::kMondrian)
+        shown.motion = seen_motion(shown.rows, twin, shown.order, plan.fps);
+    if (control.kind == ControlKind::kMirrored)
+        shown.motion.landmark = other_side(shown.motion.landmark);
     if (shown.motion.seen_mm) shown.motion.full_mm = full_motion_mm(plan, worker);
     if (std::is_sorted(shown.order.begin(), shown.order.end()) && shown.motion.seen_mm)
-        find_commanded(job.script, shown);
+        find_commanded(job.script, static_cast<double>(plan.lead_frames) / plan.fps, shown);
     pictures.know(shown.rows);
     pictures.finish(shown.order);
     if (unmatched) shown.luminance = matched_luminance(plan, *unmatched, pictures);
@@ -515,6 +342,12 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
     write_file(written[files.events], table);
     write_file(written[files.columns], frame_columns(table, plan));
     media::write_png(pictures.strip(), written[files.strip]);
+    if (plan.has_aois()) {
+        const AoiFiles aois = aoi_files(shown.rows, shown.order, plan);
+        write_file(written[files.aois], aois.table);
+        write_file(written[files.aoi_columns], aois.columns);
+        write_file(written[files.aoi_key_frames], aois.key_frames);
+    }
     if (plan.sound)
         media::write_wav(heard_of(*plan.sound, static_cast<double>(plan.frames) / plan.fps),
                          written[files.sound]);

@@ -8,6 +8,7 @@
 ///                                                columns of frame_table.h
 ///   stimuli/stim-NAME_annot-frames_events.json   what each column of that table is
 ///   stimuli/stim-NAME_video.json                 the sidecar: how the clip was made; it exists only when the clip is complete
+///   stimuli/stim-NAME_annot-aois_events.tsv      areas of interest, with their .json and aois/NAME_tobii.json; see aois.h
 ///   overview/NAME.png                            five of its frames side by side
 ///   code/scripts/NAME.json                       the script as it was played; it is written for the reader, not read back
 #pragma once
@@ -45,6 +46,8 @@ struct ClipPlan {
     std::optional<media::Tone> tone;
     std::optional<ClipSound> sound;
     int frames = 0, fps = 0, width_px = 0, height_px = 0;
+    /// Frames at the beginning that show the first one, because a recording of the set begins before the script; part of `frames`
+    int lead_frames = 0;
     std::array<std::uint8_t, 3> background{};  ///< sRGB of the displayed background
     bool transparent = false;                  ///< whether there is none
     /// Checksum of face and view; clips with the same value can share a session
@@ -57,13 +60,15 @@ struct ClipPlan {
     std::string shown_sha256() const;  ///< of what a participant sees and hears, before matching
     double seconds() const;            ///< estimated time to make it on two cores
     double megabytes() const;          ///< estimated
+    bool has_aois() const;  ///< whether areas of interest are asked for, and it shows them
     bool is_control() const { return condition.control.kind != design::ControlKind::kNone; }
     /// Sets the tone; call it once, before the clip is made
     void match(const media::Tone& matched);
 };
 
-/// Checks the script of a condition against its rig. Throws Error naming the condition.
-ClipPlan plan_clip(const design::Condition& condition, const design::Design& design,
+/// Checks the script of a condition against its rig. `lead_s`: how long before the script the earliest recording of the set begins.
+/// Throws Error naming the condition.
+ClipPlan plan_clip(const design::Condition& condition, double lead_s, const design::Design& design,
                    animate::RenderInputs& inputs, SoundPlans& sounds);
 
 /// Returns whether `folder` holds this clip with all its files unchanged.
@@ -72,7 +77,8 @@ bool is_made(const ClipPlan& plan, const std::filesystem::path& folder);
 /// The paths of a clip's files below the folder of the set.
 struct ClipFiles {
     std::filesystem::path script, strip, video, events, columns;
-    std::filesystem::path sound;    ///< empty when there is none
+    std::filesystem::path sound;                              ///< empty when there is none
+    std::filesystem::path aois, aoi_columns, aoi_key_frames;  ///< empty when none are asked for
     std::filesystem::path sidecar;  ///< written last: a clip that has it is complete
     /// All files but the sidecar, which lists them.
     std::vector<std::filesystem::path> listed() const;

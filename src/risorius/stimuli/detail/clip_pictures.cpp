@@ -10,6 +10,7 @@
 #include "risorius/media/face_filter.h"
 #include "risorius/media/sync_marks.h"
 #include "risorius/report/contact_sheet.h"
+#include "risorius/stimuli/detail/mirrored_rows.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
 
 namespace risorius::stimuli {
@@ -60,6 +61,13 @@ void turn_upside_down(Image& image) {
     image.rgba = std::move(turned);
 }
 
+void mirror(Image& image) {
+    for (int y = 0; y < image.height_px; ++y)
+        for (int x = 0; x < image.width_px / 2; ++x)
+            std::swap_ranges(image.pixel(x, y), image.pixel(x, y) + 4,
+                             image.pixel(image.width_px - 1 - x, y));
+}
+
 std::string decimal_text(double value, int decimals) {
     char text[48];
     std::snprintf(text, sizeof text, "%.*f", decimals, value);
@@ -75,7 +83,13 @@ std::optional<std::string> shown(const std::string& column, const media::Picture
     return {};
 }
 
-/// The distance of the landmarks zy_l and zy_r in the first frame, px.
+bool is_of_landmark(const std::string& column) {
+    return column.ends_with(".x_mm") || column.ends_with(".y_mm") || column.ends_with(".z_mm") ||
+           column.ends_with(".u_px") || column.ends_with(".v_px");
+}
+
+}  // namespace
+
 double width_of_face(const animate::FrameRows& rows, const std::string& place) {
     const int left = rows.column("zy_l.u_px"), right = rows.column("zy_r.u_px");
     if (left < 0 || right < 0)
@@ -83,13 +97,6 @@ double width_of_face(const animate::FrameRows& rows, const std::string& place) {
     return std::hypot(rows.number(0, left) - rows.number(0, right),
                       rows.number(0, left + 1) - rows.number(0, right + 1));
 }
-
-bool is_of_landmark(const std::string& column) {
-    return column.ends_with(".x_mm") || column.ends_with(".y_mm") || column.ends_with(".z_mm") ||
-           column.ends_with(".u_px") || column.ends_with(".v_px");
-}
-
-}  // namespace
 
 void Window::show(const std::array<std::uint8_t, 3>& outside, Image& image) const {
     const double soft = 0.08 * (right - left);
@@ -107,7 +114,7 @@ void Window::show(const std::array<std::uint8_t, 3>& outside, Image& image) cons
 
 bool needs_all_frames(const ClipPlan& plan) {
     const ControlKind kind = plan.condition.control.kind;
-    return shows_other_order(kind) || shows_part(kind) ||
+    return plan.lead_frames > 0 || shows_other_order(kind) || shows_part(kind) ||
            (plan.condition.control.changes_the_oval() && !plan.luminance);
 }
 
@@ -133,7 +140,7 @@ ClipPictures::ClipPictures(const ClipPlan& plan, media::VideoWriter& video)
       kind_(plan.condition.control.kind),
       video_(video),
       later_(needs_all_frames(plan)),
-      measured_(plan.tone || plan.condition.control.shows_otherwise()),
+      measured_(plan.tone || plan.lead_frames > 0 || plan.condition.control.shows_otherwise()),
       layered_(has_layers(plan)) {
     if (plan.tone) tone_.emplace(*plan.tone);
     if (kind_ == design::ControlKind::kPhaseScrambled)
@@ -187,6 +194,41 @@ void ClipPictures::look_for_change(const Image& image) {
     if (count > 0 && sum / count > kSeenChange) pixel_onset_ = written_;
 }
 
+void ClipPictures::pass(const std::vector<float>& oval, Image& image) {
+    const design::Control& control = plan_.condition.control;
+    const bool band = kind_ == ControlKind::kBandPass;
+    const double face_px = width_of_face(*rows_, plan_.condition.clip),
+                 finest = band ? control.upper_cycles_per_face : control.cycles_per_face;
+    if (face_px < kLeastPxPerCycle * finest)
+        throw Error(plan_.condition.clip,
+                    "a face of " + format_number(kLeastPxPerCycle * finest) +
+                        " px or more for this cycles_per_face",
+                    format_number(std::round(face_px)) + " px");
+    media::PassFilter filter{.high = kind_ != ControlKind::kLowPass,
+                             .cut_cycles_per_px = control.cycles_per_face / face_px,
+                             .order = control.order,
+                             .keep_sd = control.keep_contrast};
+    if (band) filter.low_cut_cycles_per_px = control.upper_cycles_per_face / face_px;
+    media::filter(filter, oval, image);
+}
+
+/// Draws the pattern of a frame, with mean and deviation of luminance of the face in the first frame.
+void ClipPictures::draw_mask(const std::vector<float>& oval, Image& image) {
+    const design::Control& control = plan_.condition.control;
+    if (written_ == 0) {
+        media::LuminanceSums face;
+        face.add(image, oval);
+        mask_ = {.face_px = width_of_face(*rows_, plan_.condition.clip),
+                 .grey = control.grey,
+                 .mean = face.mean(),
+                 .sd = face.sd()};
+    }
+    const auto pattern = static_cast<unsigned>(
+        written_ / static_cast<int>(std::lround(plan_.fps / control.rate_hz)));
+    mask_.seed = plan_.condition.seed + kNextFrame * pattern;
+    media::draw(mask_, image);
+}
+
 void ClipPictures::change_oval(const std::vector<float>& oval, int frame, Image& image) {
     const design::Control& control = plan_.condition.control;
     switch (kind_) {
@@ -194,25 +236,26 @@ void ClipPictures::change_oval(const std::vector<float>& oval, int frame, Image&
             phases_->scramble(image, oval);
             break;
         case ControlKind::kLowPass:
-        case ControlKind::kHighPass: {
-            const double face_px = width_of_face(*rows_, plan_.condition.clip);
-            if (face_px < kLeastPxPerCycle * control.cycles_per_face)
-                throw Error(plan_.condition.clip,
-                            "a face of " +
-                                format_number(kLeastPxPerCycle * control.cycles_per_face) +
-                                " px or more for this cycles_per_face",
-                            format_number(std::round(face_px)) + " px");
-            media::filter({.high = kind_ == ControlKind::kHighPass,
-                           .cut_cycles_per_px = control.cycles_per_face / face_px,
-                           .order = control.order,
-                           .keep_sd = control.keep_contrast},
-                          oval, image);
+        case ControlKind::kHighPass:
+        case ControlKind::kBandPass:
+            pass(oval, image);
             break;
-        }
+        case ControlKind::kPointLight:
+            if (!dots_)
+                dots_.emplace(*rows_, control.dots,
+                              control.radius * width_of_face(*rows_, plan_.condition.clip),
+                              control.scattered, plan_.condition.seed);
+            std::fill(image.rgba.begin(), image.rgba.end(), std::uint8_t{255});
+            media::keep_weighted(dots_->covered(frame, plan_.width_px, plan_.height_px),
+                                 plan_.background, image);
+            break;
+        case ControlKind::kMondrian:
+            draw_mask(oval, image);
+            break;
         case ControlKind::kNoise:
             media::add_noise(control.snr_db,
-                             plan_.condition.seed + kNextFrame * static_cast<unsigned>(frame), oval,
-                             image);
+                             plan_.condition.seed + kNextFrame * static_cast<unsigned>(written_),
+                             oval, image);
             break;
         default:  // the oval alone
             media::keep_weighted(oval, plan_.background, image);
@@ -236,7 +279,8 @@ void ClipPictures::write(Image image, int frame) {
     if (!oval.empty()) change_oval(oval, frame, image);
     if (window_) window_->show(plan_.background, image);
     if (plan_.luminance) luminance_.add(image, measured);
-    if (kind_ == design::ControlKind::kUpsideDown) turn_upside_down(image);
+    if (kind_ == ControlKind::kUpsideDown) turn_upside_down(image);
+    if (kind_ == ControlKind::kMirrored) mirror(image);
     look_for_change(image);
     if (measured_) measures_.push_back(meter_.measure(image));
     const int height = std::min(kThumb_px, image.height_px);
@@ -251,17 +295,21 @@ void ClipPictures::write(Image image, int frame) {
     video_.append(image);
 }
 
-std::string events_table(const animate::FrameRows& rows, const std::vector<int>& order,
+std::string events_table(const animate::FrameRows& source, const std::vector<int>& order,
                          const std::vector<media::PictureMeasures>& measures,
                          const ClipPlan& plan) {
+    const ControlKind kind = plan.condition.control.kind;
+    const animate::FrameRows rows =
+        kind == ControlKind::kMirrored ? mirrored(source, plan.width_px) : source;
+    const bool landmarks = plan.clips.landmarks && kind != ControlKind::kMondrian;
     std::string out = "onset\tduration\tframe\tsource_frame";
     std::vector<std::size_t> columns;
     for (std::size_t c = 2; c < rows.names.size(); ++c)
-        if (plan.clips.landmarks || !is_of_landmark(rows.names[c])) columns.push_back(c);
+        if (landmarks || !is_of_landmark(rows.names[c])) columns.push_back(c);
     for (const std::size_t c : columns) out += "\t" + rows.names[c];
     if (plan.clips.photodiode) out += "\tphotodiode";
     out += "\n";
-    const bool turned = plan.condition.control.kind == design::ControlKind::kUpsideDown;
+    const bool turned = kind == ControlKind::kUpsideDown;
     for (std::size_t i = 0; i < order.size(); ++i) {
         const auto& cells = rows.cells[static_cast<std::size_t>(order[i])];
         out += decimal_text(static_cast<double>(i) / plan.fps, 6) + "\t" +

@@ -10,10 +10,12 @@
 #include "risorius/core/image.h"
 #include "risorius/core/sha256.h"
 #include "risorius/media/luminance.h"
+#include "risorius/media/mondrian.h"
 #include "risorius/media/phase_scramble.h"
 #include "risorius/media/tone.h"
 #include "risorius/media/video_writer.h"
 #include "risorius/stimuli/detail/clip.h"
+#include "risorius/stimuli/detail/point_lights.h"
 
 namespace risorius::stimuli {
 
@@ -26,6 +28,9 @@ bool shows_one_picture(design::ControlKind kind);
 
 /// Returns whether all frames are needed before the first one is written.
 bool needs_all_frames(const ClipPlan& plan);
+
+/// Returns the distance of the landmarks zy_l and zy_r in the first frame, px. Throws Error naming `place` when there are none.
+double width_of_face(const animate::FrameRows& rows, const std::string& place);
 
 /// A window with soft edges, px. Outside it, the background is shown.
 struct Window {
@@ -69,6 +74,9 @@ class ClipPictures {
     void change_oval(const std::vector<float>& oval, int frame, Image& image);
     void look_for_change(const Image& image);
 
+    void pass(const std::vector<float>& oval, Image& image);
+    void draw_mask(const std::vector<float>& oval, Image& image);
+
     const ClipPlan& plan_;
     design::ControlKind kind_;
     std::optional<media::ToneCurve> tone_;
@@ -76,6 +84,8 @@ class ClipPictures {
     bool later_, measured_, layered_;
     const animate::FrameRows* rows_ = nullptr;
     std::optional<Window> window_;
+    std::optional<PointLights> dots_;
+    media::Mondrian mask_;
     media::LuminanceSums luminance_;
     double cut_off_ = 0;
     int added_ = 0;

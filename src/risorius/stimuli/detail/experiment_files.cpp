@@ -46,7 +46,8 @@ std::string correct_key(const design::ExperimentOptions& experiment,
     if (!experiment.correct) return {};
     // These do not show what the condition shows.
     const design::ControlKind kind = condition.control.kind;
-    if (kind == design::ControlKind::kPhaseScrambled || kind == design::ControlKind::kKnockOut)
+    if (kind == design::ControlKind::kPhaseScrambled || kind == design::ControlKind::kKnockOut ||
+        kind == design::ControlKind::kMondrian)
         return {};
     if (kind == design::ControlKind::kNeutral) {
         for (const auto& [key, answer] : experiment.answers)

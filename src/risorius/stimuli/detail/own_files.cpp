@@ -32,6 +32,7 @@ constexpr std::array kFilesOfSet{"dataset_description.json",
                                  "stimuli/stimuli.tsv",
                                  "stimuli/stimuli.json",
                                  "triggers.tsv",
+                                 "codes.tsv",
                                  "code/design.json",
                                  "index.html",
                                  "luminance/luminance.tsv",
@@ -105,6 +106,7 @@ std::string clip_of(const Json& record, const std::string& file_name) {
 bool belongs_to(const std::string& clip, const std::string& file) {
     const std::string stem = "stimuli/stim-" + clip + "_";
     return file == "overview/" + clip + ".png" || file == "code/scripts/" + clip + ".json" ||
+           file == "aois/" + clip + "_tobii.json" ||
            (file.starts_with(stem) && file.find('/', stem.size()) == std::string::npos);
 }
 

@@ -24,30 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// triggers.tsv, with the codes 1 clip_on, 2 movement_onset, 3 apex and 4 clip_off. A moment that a clip does not have gets no row.
-/// Of several moments in one frame, the first has the code.
-std::string triggers(const std::vector<Json>& records) {
-    std::string out = "stim_id\tevent\tcode\tframe\ttime_s\tmerged_into\n";
-    for (const Json& one : records) {
-        const double fps = one.at("fps").get<double>();
-        std::map<int, std::string> taken;
-        const auto row = [&](const char* event, int code, const Json& at) {
-            if (at.is_null()) return;
-            const int frame = at.get<int>();
-            const auto [first, is_new] = taken.emplace(frame, event);
-            out += one.at("stim_id").get<std::string>() + "\t" + event + "\t" +
-                   std::to_string(code) + "\t" + std::to_string(frame) + "\t" +
-                   format_number(frame / fps) + "\t" + (is_new ? kMissingCell : first->second) +
-                   "\n";
-        };
-        row("clip_on", 1, 0);
-        row("movement_onset", 2, one.at("movement_onset_frame"));
-        row("apex", 3, one.at("apex_frame"));
-        row("clip_off", 4, one.at("frames"));
-    }
-    return out;
-}
-
 /// README of the data set.
 std::string read_me(const BatchPlan& plan) {
     return "# " + plan.name + "\n\nStimuli: " + std::to_string(plan.clips.size()) +
@@ -76,12 +52,15 @@ Json dataset_description(const BatchPlan& plan) {
 
 /// Files that BIDS does not know.
 constexpr const char* kBidsIgnore =
-    "SHA256SUMS\nindex.html\ntriggers.tsv\ncode/\nexperiment/\nluminance/\noverview/\n"
+    "SHA256SUMS\nindex.html\ntriggers.tsv\ncodes.tsv\ncode/\nexperiment/\nluminance/\noverview/"
+    "\naois/\n"
     "intermediate/\n*.new\n.risorius-*\n";
 /// The annotations of BEP044.
 constexpr const char* kAnnotations =
     "annot_id\tdescription\nannot-frames\tA row for each frame as it is shown: drive of the face, "
     "landmarks and luminance\n";
+constexpr const char* kAoiAnnotation =
+    "annot-aois\tA row for each frame and area of interest: its polygon in the picture\n";
 
 std::string overview(const std::string& name, const std::vector<Json>& records,
                      const std::vector<ClipPlan>& clips) {
@@ -181,8 +160,11 @@ std::vector<std::string> write_set(const BatchPlan& plan, const BatchOptions& op
     const Catalogue catalogue = catalogue_of(plan, records);
     write("stimuli/stimuli.tsv", catalogue.table);
     write("stimuli/stimuli.json", json_text(catalogue.columns, 2) + "\n");
-    write("stimuli/annotations.tsv", kAnnotations);
-    write("triggers.tsv", triggers(records));
+    write("stimuli/annotations.tsv", plan.clips.front().clips.aois.empty()
+                                         ? kAnnotations
+                                         : std::string(kAnnotations) + kAoiAnnotation);
+    write("triggers.tsv", triggers(records, plan.codes));
+    if (!plan.codes.table.empty()) write("codes.tsv", plan.codes.table);
     // It may be the design that is read.
     if (std::error_code none; fs::equivalent(design, folder / "code/design.json", none))
         files.insert("code/design.json");

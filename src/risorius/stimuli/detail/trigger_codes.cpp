@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/stimuli/detail/trigger_codes.h"
+
+#include <nlohmann/json.hpp>
+
+#include "risorius/core/error.h"
+#include "risorius/core/json_text.h"
+#include "risorius/stimuli/detail/catalogue.h"
+
+namespace risorius::stimuli {
+
+namespace {
+
+constexpr int kFirstCode = 10, kLastCode = 250;
+
+/// The value of a parameter of a clip; null when it has none.
+Json value_of(const design::Condition& condition, const std::string& name) {
+    if (name == "stim_id") return condition.clip;
+    if (name == "control") return condition.control.name();
+    for (const auto& [key, value] : condition.values)
+        if (key == name) return value;
+    return {};
+}
+
+}  // namespace
+
+CodesOfClips codes_of_clips(const std::vector<ClipPlan>& clips, const design::Design& design) {
+    CodesOfClips out;
+    if (design.code_by.empty()) return out;
+    const std::string place = design.file.string() + ":/triggers";
+    out.table = "code";
+    for (const std::string& name : design.code_by) {
+        out.table += "\t" + name;
+        bool known = false;
+        for (const ClipPlan& clip : clips)
+            known = known || !value_of(clip.condition, name).is_null();
+        if (!known)
+            throw Error(place + "/code_by", "names of parameters, or \"control\"",
+                        "\"" + name + "\"");
+    }
+    out.table += "\n";
+    std::map<std::string, int> code_of_values;
+    for (const ClipPlan& clip : clips) {
+        std::string values;
+        for (const std::string& name : design.code_by) {
+            const Json value = value_of(clip.condition, name);
+            const std::string text = value.is_string() ? value.get<std::string>()
+                                     : value.is_null() ? ""
+                                                       : json_text(value);
+            values += "\t" + (text.empty() ? kMissingCell : text);
+        }
+        const int next = kFirstCode + static_cast<int>(code_of_values.size());
+        const auto [known, is_new] = code_of_values.emplace(values, next);
+        if (is_new && next > kLastCode)
+            throw Error(place,
+                        std::to_string(kLastCode - kFirstCode + 1) +
+                            " codes at most; \"code_by\" names the parameters that they tell",
+                        "more");
+        if (is_new) out.table += std::to_string(next) + values + "\n";
+        out.code_of[clip.condition.clip] = known->second;
+    }
+    return out;
+}
+
+std::string triggers(const std::vector<Json>& records, const CodesOfClips& codes) {
+    std::string out = "stim_id\tevent\tcode\tframe\ttime_s\tmerged_into\n";
+    for (const Json& one : records) {
+        const double fps = one.at("fps").get<double>();
+        std::map<int, std::string> taken;
+        const auto row = [&](const char* event, int code, const Json& at) {
+            if (at.is_null()) return;
+            const int frame = at.get<int>();
+            const auto [first, is_new] = taken.emplace(frame, event);
+            out += one.at("stim_id").get<std::string>() + "\t" + event + "\t" +
+                   std::to_string(code) + "\t" + std::to_string(frame) + "\t" +
+                   format_number(frame / fps) + "\t" + (is_new ? kMissingCell : first->second) +
+                   "\n";
+        };
+        const auto own = codes.code_of.find(one.at("stim_id").get<std::string>());
+        row("clip_on", own == codes.code_of.end() ? 1 : own->second, 0);
+        row("movement_onset", 2, one.at("movement_onset_frame"));
+        row("apex", 3, one.at("apex_frame"));
+        row("clip_off", 4, one.at("frames"));
+    }
+    return out;
+}
+
+}  // namespace risorius::stimuli
