@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "risorius/animate/animate.h"
 #include "risorius/blendshapes/live_link.h"
@@ -53,13 +54,15 @@ bool same(const std::vector<speech::ClosureChange>& one,
     return std::equal(one.begin(), one.end(), two.begin(), two.end(),
                       [](const speech::ClosureChange& a, const speech::ClosureChange& b) {
                           return a.phone == b.phone && a.deeper_mm == b.deeper_mm &&
-                                 a.earlier_s == b.earlier_s && a.shorter_s == b.shorter_s;
+                                 a.earlier_s == b.earlier_s && a.shorter_s == b.shorter_s &&
+                                 a.wider_mm == b.wider_mm;
                       });
 }
 
-/// More closures hold, and, of as many, fewer of them stay shut too long.
+/// More closures hold; of as many, fewer of them stay shut too long; then, vowels open as far as planned.
 bool is_better(const talk::CheckedSpeech& one, const talk::CheckedSpeech& other) {
-    return std::pair(one.held, one.opened) > std::pair(other.held, other.opened);
+    return std::tuple(one.held, one.opened, -one.missing_mm) >
+           std::tuple(other.held, other.opened, -other.missing_mm);
 }
 
 /// Writes the utterance, the script and what the script shows.
@@ -96,6 +99,7 @@ void render_speech(SpeakArguments& arguments, talk::SpokenResult& result,
     // The face is simulated without pictures. Closures that leak are pressed deeper, those that come late begin earlier.
     talk::ScriptChecker checker(files, animate::quality_of(arguments.render));
     talk::CheckedSpeech best;
+    std::vector<speech::ClosureChange> best_adjust;
     for (int pass = 0;; ++pass) {
         talk::CheckedSpeech checked = checker.check(
             JsonCursor::from_json(script, script_file.string()), [&](double fraction) {
@@ -104,10 +108,14 @@ void render_speech(SpeakArguments& arguments, talk::SpokenResult& result,
         const std::vector<talk::ClosureCheck> closures = checked.closures.back();
         if (pass == 0 || is_better(checked, best)) {
             best = std::move(checked);
+            best_adjust = options.adjust;
             save();
         }
         if (pass >= arguments.passes) break;
         std::vector<speech::ClosureChange> changes = talk::changes_for(closures, options.adjust);
+        // Closures come first: vowels are widened in the last pass, which counts only if no closure is lost.
+        if (pass + 1 == arguments.passes || same(changes, options.adjust))
+            changes = talk::widened(best.vowels.back(), best_adjust);
         if (same(changes, options.adjust)) break;
         options.adjust = std::move(changes);
         script = talk::speak_script(result.spoken.utterance, options);
@@ -118,6 +126,8 @@ void render_speech(SpeakArguments& arguments, talk::SpokenResult& result,
     if (!arguments.common.quiet && checked.total > 0)
         std::printf("closures of the lips: %d, reached %d, held %d\n", checked.total,
                     checked.reached, checked.held);
+    if (!arguments.common.quiet && checked.missing_mm >= 0.5)
+        std::printf("vowels open %.1f mm less than planned, mean\n", checked.missing_mm);
     if (only_script) return;
     if (live_link)
         return write_text(out, blendshapes::live_link_of_script(

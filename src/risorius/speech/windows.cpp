@@ -45,7 +45,8 @@ constexpr double kStressJaw = 1.15, kStressTau = 0.85;
 constexpr double kVowelFrom = 0.25, kVowelTo = 0.75, kOtherFrom = 0.3, kOtherTo = 0.7;
 constexpr double kOpenFrom = 0.30, kOpenTo = 0.75;  // in which a vowel must be open
 constexpr double kOpenGap_mm = 1.5, kOpenFraction = 0.3, kAfterLabial_s = 0.040;
-constexpr double kContactMargin = 0.15;            // labiodentals: the middle 70 %
+constexpr double kContactLead_s = 0.015;  // labiodentals: the sound begins when the lip is there
+constexpr double kContactTo = 0.85;
 constexpr double kStill = 0.02;                    // rest in long pauses, in units of the parameter
 constexpr double kSettle_s = 0.2, kWake_s = 0.15;  // of a long pause: closing, opening
 // Lips close before the first sound of an utterance.
@@ -254,8 +255,7 @@ class Planner {
                 bound(i, Parameter::kGap, open_s, close_s,
                       std::min(kOpenGap_mm, kOpenFraction * gap), kInfinite);
         }
-        const double a = from_s + kContactMargin * length_s,
-                     b = from_s + (1 - kContactMargin) * length_s;
+        const double a = from_s - kContactLead_s, b = from_s + kContactTo * length_s;
         if (kind == PhoneClass::kLabiodental || kind == PhoneClass::kLabiodentalSoft) {
             // Bilabial fricatives are of the soft class, too, but have nothing to do with the teeth.
             if (entries_[i].place != "bilabial_cont")
@@ -301,6 +301,11 @@ std::optional<double> first_burst_s(const Utterance& utterance, const PhoneTable
 
 void change_closures(const std::vector<ClosureChange>& changes, ArticulationTargets& targets) {
     for (const ClosureChange& change : changes) {
+        if (change.wider_mm > 0)
+            for (Window& window : targets.windows)
+                if (window.phone == change.phone && window.parameter == Parameter::kGap &&
+                    window.target > 0)
+                    window.target += change.wider_mm;
         const bool known =
             std::any_of(targets.closures.begin(), targets.closures.end(),
                         [&](const LipClosure& c) { return c.first_phone == change.phone; });

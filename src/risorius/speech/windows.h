@@ -59,12 +59,13 @@ struct LabiodentalContact {
     int phone;
 };
 
-/// A change of one closure, as a check of the simulated face asks for it.
+/// A change of one closure or vowel, as a check of the simulated face asks for it.
 struct ClosureChange {
-    int phone = 0;         ///< index of its first phone
+    int phone = 0;         ///< index of the first phone of the closure, or of the vowel
     double deeper_mm = 0;  ///< the lips press by this more, >= 0
     double earlier_s = 0;  ///< they begin to close earlier by this, >= 0
     double shorter_s = 0;  ///< they begin to open earlier by this, >= 0
+    double wider_mm = 0;   ///< of a vowel: the lips are asked to open by this more, >= 0
 };
 
 /// Everything that is asked of the mouth. Times are from the first sample of the sound, s.
@@ -95,7 +96,8 @@ double release_s(const Utterance& utterance, const Phone& phone, const PhoneEntr
 /// The release of the first stop, lip closure or nasal, s from the first sample of the sound; none without such a phone.
 std::optional<double> first_burst_s(const Utterance& utterance, const PhoneTable& table);
 
-/// Changes the windows and bounds of closures. Changes of phones that begin no closure have no effect.
+/// Changes the windows and bounds of closures, and the gap of vowels. Changes of phones that begin no closure and are no vowel have no
+/// effect.
 void change_closures(const std::vector<ClosureChange>& changes, ArticulationTargets& targets);
 
 }  // namespace risorius::speech

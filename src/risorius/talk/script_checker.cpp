@@ -23,6 +23,8 @@ CheckedSpeech ScriptChecker::check(const JsonCursor& json,
     CheckedSpeech out;
     out.track = simulate_mouth(face_, track::Timeline(script, channels), script.header.duration_s,
                                measures_, report);
+    const speech::PhoneTable table = speech::PhoneTable::standard();
+    int vowels = 0;
     for (PlacedUtterance& placed : speech.utterances) {
         out.closures.push_back(placed.face ? check_closures(out.track, placed)
                                            : std::vector<ClosureCheck>());
@@ -32,8 +34,15 @@ CheckedSpeech ScriptChecker::check(const JsonCursor& json,
             out.held += check.held();
             out.opened += check.open_s < check.release_s + 0.05;
         }
+        out.vowels.push_back(placed.face ? check_vowels(out.track, placed, table)
+                                         : std::vector<VowelCheck>());
+        for (const VowelCheck& check : out.vowels.back()) {
+            ++vowels;
+            out.missing_mm += std::max(0.0, check.planned_mm - check.reached_mm);
+        }
         out.utterances.push_back(std::move(placed));
     }
+    out.missing_mm /= std::max(1, vowels);
     return out;
 }
 

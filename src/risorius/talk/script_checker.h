@@ -17,6 +17,8 @@ struct CheckedSpeech {
     MouthTrack track;
     std::vector<PlacedUtterance> utterances;
     std::vector<std::vector<ClosureCheck>> closures;  ///< of each utterance
+    std::vector<std::vector<VowelCheck>> vowels;      ///< the same
+    double missing_mm = 0;  ///< by how much the vowels open less than planned, mean
     int reached = 0, held = 0, total = 0;
     int opened = 0;  ///< closures that are open again 50 ms after their release
 };

@@ -51,6 +51,7 @@ Json speak_script(const speech::Utterance& utterance, const SpeakScriptOptions& 
         put("deeper_mm", change.deeper_mm);
         put("earlier_s", change.earlier_s);
         put("shorter_s", change.shorter_s);
+        put("wider_mm", change.wider_mm);
         event["adjust"].push_back(std::move(one));
     }
     Json script;

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "risorius/speech/trajectory.h"
+
 namespace risorius::talk {
 
 namespace {
@@ -22,6 +24,8 @@ constexpr double kBefore_s = 0.15, kAfter_s = 0.2;
 constexpr double kLate_s = 0.010, kMaxEarlier_s = 0.03, kOpensLate_s = 0.017;
 constexpr double kDeeper = 2, kDeeperAtLeast_mm = 0.6, kDeepest_mm = 6;
 constexpr double kStuck_s = 0.05, kLessDeep = 0.6;
+// Vowels that open too little: what is left as it is, and the most that is asked for beyond the plan
+constexpr double kMissing_mm = 1, kWider = 0.8, kWidest_mm = 6;
 constexpr double kEarliest_s = 0.06, kShortest_s = 0.03;
 
 std::string cell(double value, int decimals) {
@@ -91,6 +95,45 @@ std::vector<ClosureCheck> check_closures(const MouthTrack& track, const PlacedUt
         out.push_back(check);
     }
     return out;
+}
+
+std::vector<VowelCheck> check_vowels(const MouthTrack& track, const PlacedUtterance& placed,
+                                     const speech::PhoneTable& table) {
+    const speech::ArticulationCurves plan = speech::curves_of(placed.targets);
+    std::vector<VowelCheck> out;
+    const speech::Utterance& u = placed.utterance;
+    for (std::size_t i = 0; i < u.phones.size(); ++i) {
+        if (!is_vowel(table.phone(u.phones[i].symbol, "phone").kind)) continue;
+        const auto closes = [&](std::size_t k) {
+            return k < u.phones.size() &&
+                   table.phone(u.phones[k].symbol, "phone").kind == speech::PhoneClass::kClosure;
+        };
+        if (closes(i - 1) || closes(i + 1)) continue;
+        VowelCheck check{static_cast<int>(i)};
+        const double from_s = u.seconds(u.phones[i].start), to_s = u.seconds(u.phones[i].end);
+        for (double t = from_s; t <= to_s; t += kMouthStep_s) {
+            check.planned_mm = std::max(check.planned_mm, plan.at(speech::Parameter::kGap, t));
+            check.reached_mm =
+                std::max(check.reached_mm, track.at(placed.start_s + t, &Mouth::gap));
+        }
+        out.push_back(check);
+    }
+    return out;
+}
+
+std::vector<ClosureChange> widened(const std::vector<VowelCheck>& checks,
+                                   std::vector<ClosureChange> before) {
+    for (const VowelCheck& check : checks) {
+        const double missing_mm = check.planned_mm - check.reached_mm;
+        if (missing_mm < kMissing_mm) continue;
+        const auto known = std::find_if(before.begin(), before.end(), [&](const ClosureChange& c) {
+            return c.phone == check.phone;
+        });
+        ClosureChange& to =
+            known != before.end() ? *known : before.emplace_back(ClosureChange{check.phone});
+        to.wider_mm = std::min(kWidest_mm, to.wider_mm + kWider * missing_mm);
+    }
+    return before;
 }
 
 std::vector<ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,

@@ -44,6 +44,20 @@ struct ClosureCheck {
 
 std::vector<ClosureCheck> check_closures(const MouthTrack& track, const PlacedUtterance& placed);
 
+/// One vowel as simulated.
+struct VowelCheck {
+    int phone = 0;
+    double planned_mm = 0, reached_mm = 0;  ///< largest gap between the lips
+};
+
+/// Vowels beside a closure are left out: wider ones would open it.
+std::vector<VowelCheck> check_vowels(const MouthTrack& track, const PlacedUtterance& placed,
+                                     const speech::PhoneTable& table);
+
+/// Asks vowels in which the lips open too little to open further, by a part of what is missing.
+std::vector<speech::ClosureChange> widened(const std::vector<VowelCheck>& checks,
+                                           std::vector<speech::ClosureChange> before);
+
 /// What would mend the closures that leak, come late or open late: deeper by twice the gap and 0.6 mm, earlier by what is
 /// missing. Added to the changes that were in force.
 std::vector<speech::ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
