@@ -253,6 +253,7 @@ TEST_F(Batch, FiltersAndNoiseChangeTheOvalAlone) {
         {"control": "point_light", "dots": 5, "radius": 0.06}])")));
     json["clips"].erase("photodiode");
     json["clips"]["aois"] = {"eye_l", "mouth", "face"};
+    json["clips"]["quality"] = "draft";
     std::ofstream(folder().path() / "oval.json") << json.dump();
     const BatchOptions options{
         .design = folder().path() / "oval.json", .out = folder().path() / "oval", .workers = 2};
@@ -376,6 +377,7 @@ TEST_F(Batch, BeginsBeforeALeadingSound) {
     Json json = Json::parse(text_of(design("early.json", {1})));
     json["clips"].erase("photodiode");
     json["match"]["loudness"]["lufs"] = -30;
+    json["clips"]["quality"] = "draft";
     Json& set = json["sets"][0];
     set["audio"] = "beep.wav";
     set["audio_start_s"] = "= 0.05 + soa_ms / 1000";
