@@ -29,7 +29,8 @@ struct SyncMarks {
     std::string photodiode_shows = "frames";
 };
 
-/// The request for one video, or for one still. plan_render_job() makes a RenderJob of it; nothing after that reads the request.
+/// The request for one video, or for one still. plan_render_job() makes a RenderJob of it. After that, animate() reads only `audio`
+/// of it.
 struct RenderRequest {
     std::filesystem::path script;
     /// The script itself when it is in memory. `script` then only names it, and is not read.

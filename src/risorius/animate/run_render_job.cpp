@@ -233,7 +233,7 @@ class JobRun {
         return seen(pose, activation, t_s, angle_rad);
     }
 
-    /// Steps the face until pose_at(t_s) is available. For a still this simulates everything before it.
+    /// Steps the face until pose_at(t_s) has at most two steps to make. For a still this simulates everything before it.
     void simulate_until(double t_s, bool first) {
         if (first) face_.start(drive_);
         while (job_.script.header.motion == track::Motion::kDynamic &&

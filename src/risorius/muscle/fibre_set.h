@@ -5,8 +5,9 @@
 ///
 ///   l   segment length, l0 its optimal length, m     lam = l / l0     a   activation, 0..1     F0   maximum force, N
 ///   static      E = sum over segments F0 l0 [ a Ifl(lam) + Ifp(lam) ]                  T = F0 [ a fl(lam) + fp(lam) ]
-///   in a step   E = sum over segments F0 [ a fl(lam_n) h vmax l0 Ifv(v) + l0 Ifp(lam) ] T = F0 [ a fl(lam_n) fv(v) + fp(lam) ]
-///               v = (l - l_n) / (h vmax l0), n the start of a step of length h, vmax in optimal lengths per second
+///   in a step   E = sum over segments F0 [ a fl(lam_e) h vmax l0 Ifv(v) + l0 Ifp(lam) ] T = F0 [ a fl(lam_e) fv(v) + fp(lam) ]
+///               v = (l - l_n) / (h vmax l0), l_n the length at the start of a step of h seconds, lam_e the expected stretch at its
+///               end, vmax in optimal lengths per second
 ///
 /// T is the tension, N. fl and fp are the active and passive force-length curves of muscle/detail/hill_shape.h, fv is the
 /// force-velocity curve of muscle/muscle_curves.h, and Ifl, Ifp and Ifv are their integrals. E of a step is convex in l. When a

@@ -20,7 +20,7 @@ namespace {
 /// Changes when poses are chosen, simulated or measured in another way.
 constexpr const char* kRecipe = "voice 5";
 
-/// Hash of everything that the poses depend on. Tables of expressions and wrinkles move no lip.
+/// Hash of everything that the poses depend on. Tables of expressions, action units and wrinkles do not change them.
 std::string hash_of(const scene::RigFiles& files) {
     Sha256 hash;
     const auto add = [&](const std::string& text) { hash.add(text.data(), text.size()); };

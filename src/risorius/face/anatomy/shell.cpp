@@ -379,7 +379,8 @@ void ShellMaker::number_vertices(const geom::Decimated& coarse) {
     }
 }
 
-// The bindings name all members of a head, so that a new one does not compile until it is added here or left out on purpose.
+// The bindings name all members of a head, so that a new one does not compile until it is added here or left out on purpose. Those left out
+// are not read by ShellMaker.
 std::string key_of(const rig::Head& head, const std::array<EyeLids, 2>& lids,
                    const ShellOptions& options) {
     CacheKey key("face/anatomy/shell");

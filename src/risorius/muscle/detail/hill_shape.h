@@ -28,7 +28,7 @@ struct HillShape {
     double active_width = 0.45;     ///< width                                     (0, inf)
     double passive_strain = 0.7;    ///< strain at which passive f is 1           (0, inf)
     double passive_exponent = 4.0;  ///< steepness of the passive curve           (0, inf)
-    double passive_linear = 1.5;    ///< linear: straight beyond this times e0      (0, inf)
+    double passive_linear = 1.5;    ///< straight beyond this times passive_strain   (0, inf)
 };
 
 Curve active_curve(const HillShape& shape);   ///< active force-length curve; integral 0 at l = 1
