@@ -32,17 +32,18 @@ void print_rig(const Json& info) {
     }
     std::printf(
         "\nMuscles (.l and .r where paired), excitation 0 to 1; greatest force x strength on this "
-        "head\n");
+        "head; what the muscle does\n");
     for (const Json& muscle : info["muscles"]) {
-        const char* sides = muscle["paired"].get<bool>() ? ".l .r" : "";
-        std::printf("  %-40s %-5s  %-7s", text(muscle["id"]).c_str(), sides,
-                    text(muscle["group"]).c_str());
-        if (muscle.contains("moves_jaw"))
-            std::printf("  moves the jaw in scripts with \"jaw\": \"muscles\"");
+        std::printf("  %-36s %-5s", text(muscle["id"]).c_str(),
+                    muscle["paired"].get<bool>() ? ".l .r" : "");
         if (muscle.contains("force_n"))
             std::printf("  %5.1f N x %.2f", muscle["force_n"].get<double>(),
                         muscle["strength"].get<double>());
-        std::printf("%s\n", muscle["min"].get<double>() < 0 ? "  from -1" : "");
+        else
+            std::printf("%16s", "");
+        std::printf("  %s%s%s\n", text(muscle["action"]).c_str(),
+                    muscle["min"].get<double>() < 0 ? "; from -1" : "",
+                    muscle.contains("moves_jaw") ? " (in scripts with \"jaw\": \"muscles\")" : "");
     }
     std::printf("\nAction units\n");
     for (const Json& unit : info["action_units"])
