@@ -232,7 +232,7 @@ TEST(Render, ShowsTheMusclesWhenTheScriptOrTheCommandAsks) {
     EXPECT_EQ(refused.errors,
               "risorius: --show: expected one of \"skin\", \"muscles\", \"skull\", \"wire\", "
               "\"strain\", \"error\", "
-              "\"landmarks\", found \"bones\"\n");
+              "\"landmarks\", \"articulation\", found \"bones\"\n");
 }
 
 TEST(Render, ANeutralScriptShowsOnePictureThroughout) {
