@@ -160,7 +160,7 @@ TEST_F(MusclesView, WhatDoesNotFitIsNamed) {
     EXPECT_EQ(message_of([] { show_named("bones", "--show"); }),
               "--show: expected one of \"skin\", \"muscles\", \"skull\", \"wire\", \"strain\", "
               "\"error\", "
-              "\"landmarks\", found \"bones\"");
+              "\"landmarks\", \"articulation\", found \"bones\"");
     for (std::size_t i = 0; i < show_names().size(); ++i)
         EXPECT_EQ(show_named(show_names()[i], ""), static_cast<Show>(i));
     Pose pose = head->pose;
