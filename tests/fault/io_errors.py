@@ -46,7 +46,8 @@ def state_of(folder):
     files, hidden = {}, []
     for path in sorted(folder.rglob("*")):
         name = path.relative_to(folder).as_posix()
-        if any(part.startswith(".") for part in pathlib.PurePath(name).parts):
+        # A set has one hidden file of its own: validators of BIDS look for it.
+        if any(part.startswith(".") and part != ".bidsignore" for part in pathlib.PurePath(name).parts):
             hidden.append(name)
         elif path.is_file():
             files[name] = hashlib.sha256(stable(path, folder)).hexdigest()
