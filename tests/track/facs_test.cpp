@@ -98,7 +98,7 @@ TEST(Facs, MillimetresBecomeRatiosOfTheTablesRanges) {
     EXPECT_DOUBLE_EQ(kinematic(unit("AU19"), Kinematic::kTongueOut), 20.0 / 45.0);
     EXPECT_EQ(kinematic(unit("AU30.l"), Kinematic::kJawSide), 1.0);
     EXPECT_EQ(kinematic(unit("AU30.r"), Kinematic::kJawSide), -1.0);
-    EXPECT_EQ(kinematic(unit("AU27"), Kinematic::kJawOpen), 1.0);
+    EXPECT_EQ(kinematic(unit("AU27"), Kinematic::kJawOpen), 1.2);
     EXPECT_EQ(kinematic(unit("AU34"), Kinematic::kMouthPressure), 2300.0);
     EXPECT_EQ(kinematic(unit("AU35"), Kinematic::kMouthPressure), -2500.0);
 }

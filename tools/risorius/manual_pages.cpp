@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tools/risorius/manual_pages.h"
 
-#include <regex>
 #include <sstream>
 
 #include "risorius/core/error.h"
@@ -106,8 +105,10 @@ std::string in_table(const std::string& text) {
 
 /// Escapes text for troff: hyphens stay hyphens, and no line starts a request.
 std::string troff(std::string text) {
-    text = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
-    return std::regex_replace(text, std::regex("(^|\n)([.'])"), "$1\\&$2");
+    text = "\n" + replaced(replaced(text, "\\", "\\e"), "-", "\\-");
+    for (const std::string request : {".", "'"})
+        text = replaced(text, "\n" + request, "\n\\&" + request);
+    return text.substr(1);
 }
 
 std::string in_single_quotes(const std::string& text) {
@@ -116,9 +117,9 @@ std::string in_single_quotes(const std::string& text) {
 
 /// The values for completion that a description or a check lists, for instance "{draft,preview}" as a type name.
 std::string choices_of(const Flag& flag) {
-    std::smatch found;
-    if (!std::regex_search(flag.value, found, std::regex("\\{([^}]*)\\}"))) return "";
-    return std::regex_replace(found.str(1), std::regex(","), " ");
+    const std::size_t open = flag.value.find('{'), close = flag.value.find('}', open);
+    if (open == std::string::npos || close == std::string::npos) return "";
+    return replaced(flag.value.substr(open + 1, close - open - 1), ",", " ");
 }
 
 void write(const fs::path& file, const std::string& text, std::vector<fs::path>& written) {

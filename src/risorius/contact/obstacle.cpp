@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "risorius/core/json_cursor.h"
+#include "risorius/core/rotations.h"
 
 namespace risorius::contact {
 
@@ -53,22 +54,11 @@ class Capsule : public Shape {
     double radius_;
 };
 
-/// The shortest rotation of a unit vector to another one that is not its opposite. Eigen's FromTwoVectors needs a singular
-/// value decomposition for opposites, which takes as long to compile as the rest of this folder.
-Eigen::Quaterniond turn_between(const Vec3& from, const Vec3& to) {
-    const double s = std::sqrt((1 + from.dot(to)) * 2);
-    Eigen::Quaterniond turn;
-    turn.vec() = from.cross(to) * (1 / s);
-    turn.w() = s * 0.5;
-    return turn;
-}
-
 Eigen::Quaterniond turn_from_z(const Vec3& direction) {
-    const Vec3 up = Vec3::UnitZ(), to = direction.normalized();
     constexpr double kNearOpposite = -1 + 1e-12;
-    if (up.dot(to) >= kNearOpposite) return turn_between(up, to);
+    if (direction.normalized().z() >= kNearOpposite) return turn_between(Vec3::UnitZ(), direction);
     const Eigen::Quaterniond half_turn(0, 1, 0, 0);  // about x
-    return turn_between(-up, to) * half_turn;
+    return turn_between(-Vec3::UnitZ(), direction) * half_turn;
 }
 
 void check_size(double value, const std::string& place) {

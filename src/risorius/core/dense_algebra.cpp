@@ -37,4 +37,8 @@ Eigen::VectorXd solved_symmetric(const Eigen::MatrixXd& matrix, const Eigen::Vec
     return matrix.ldlt().solve(right);
 }
 
+Eigen::MatrixXd solved_symmetric(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right) {
+    return matrix.ldlt().solve(right);
+}
+
 }  // namespace risorius

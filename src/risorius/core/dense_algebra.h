@@ -34,5 +34,7 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix);
 
 /// Solves matrix x = right for x. The matrix is symmetric and may be singular.
 Eigen::VectorXd solved_symmetric(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+/// The same for several right sides, one solution per column.
+Eigen::MatrixXd solved_symmetric(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right);
 
 }  // namespace risorius

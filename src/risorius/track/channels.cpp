@@ -5,7 +5,7 @@ namespace risorius::track {
 
 const std::array<KinematicChannel, kKinematicCount>& kinematic_channels() {
     static constexpr std::array<KinematicChannel, kKinematicCount> kChannels{{
-        {"jaw_open", 0, 1},
+        {"jaw_open", 0, 1.2},
         {"jaw_forward", 0, 1},
         {"jaw_side", -1, 1},
         {"gaze_yaw_deg.l", -50, 50},

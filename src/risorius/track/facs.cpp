@@ -26,10 +26,15 @@ std::vector<MuscleFraction> read_shares(const JsonCursor& json, const ChannelTab
     return fractions;
 }
 
+double read_within(const JsonCursor& json, Kinematic k) {
+    const KinematicChannel& channel = kinematic_channels()[static_cast<std::size_t>(k)];
+    return json.number({channel.min, channel.max});
+}
+
 JawFraction read_jaw(const JsonCursor& json, const FacsRanges& ranges) {
     json.allow_keys({"open", "protrude_mm", "lateral_mm"});
     JawFraction jaw;
-    if (const auto v = json.find("open")) jaw.open = v->number({0, 1});
+    if (const auto v = json.find("open")) jaw.open = read_within(*v, Kinematic::kJawOpen);
     if (const auto v = json.find("protrude_mm"))
         jaw.protrude_mm = v->number({0, ranges.jaw_forward_mm});
     if (const auto v = json.find("lateral_mm"))
@@ -42,11 +47,6 @@ void apply_jaw(const JawFraction& jaw, const FacsRanges& ranges, KinematicValues
     if (jaw.protrude_mm)
         value(values, Kinematic::kJawForward) = *jaw.protrude_mm / ranges.jaw_forward_mm;
     if (jaw.lateral_mm) value(values, Kinematic::kJawSide) = *jaw.lateral_mm / ranges.jaw_side_mm;
-}
-
-double read_within(const JsonCursor& json, Kinematic k) {
-    const KinematicChannel& channel = kinematic_channels()[static_cast<std::size_t>(k)];
-    return json.number({channel.min, channel.max});
 }
 
 void read_head(const JsonCursor& json, KinematicValues& values) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/blendshapes/detail/low_rank.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -73,7 +72,7 @@ void fit(Stack& stack, const std::vector<PlayedFrame>& frames, const Eigen::Matr
     left.noalias() -= stack.column * drivers.transpose();
     Eigen::MatrixXd normal = drivers * drivers.transpose();
     normal.diagonal().array() += ridge_weight;
-    stack.column.noalias() += left * normal.ldlt().solve(drivers);
+    stack.column.noalias() += left * solved_symmetric(normal, drivers);
 }
 
 /// Correctives of one side, the largest singular value first.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "risorius/core/rotations.h"
 #include "risorius/geom/closest_point.h"
 
 namespace risorius::blendshapes {
@@ -59,7 +60,7 @@ std::vector<Vec3> directions() {
 /// The share of rays about a normal that leave the head.
 double seen(const geom::SurfaceTree& tree, const Vec3& at, const Vec3& normal,
             const std::vector<Vec3>& about_z) {
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), normal);
+    const Eigen::Quaterniond turn = turn_between(Vec3::UnitZ(), normal);
     int free = 0;
     for (const Vec3& direction : about_z)
         if (!tree.cast(at + kOffset_m * normal, turn * direction, kFarthest_m)) ++free;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/inverse/detail/evaluation_pictures.h"
 
-#include <Eigen/SVD>
 #include <cstdio>
 #include <limits>
 #include <set>
 
+#include "risorius/core/rotations.h"
 #include "risorius/media/image_file.h"
 #include "risorius/render/offscreen_view.h"
 #include "risorius/report/contact_sheet.h"
@@ -31,9 +31,7 @@ Mat3 eye_rotation(const rig::Head& head, int side, const Points& vertices) {
             covariance += (vertices.row(v).transpose() - centre) *
                           (head.vertices.row(v).transpose() - centre).transpose();
     if (covariance.isZero()) return Mat3::Identity();
-    const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Vec3 signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
-    return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+    return nearest_rotation(covariance).rotation;
 }
 
 render::Pose pose_of(const rig::Head& head, const Points& vertices) {

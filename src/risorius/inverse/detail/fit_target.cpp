@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/inverse/detail/fit_target.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include "risorius/blendshapes/shape_player.h"
 #include "risorius/core/error.h"
 #include "risorius/core/known_names.h"
+#include "risorius/core/rotations.h"
 #include "risorius/face/surfaces.h"
 #include "risorius/inverse/detail/foreign_shapes.h"
 #include "risorius/inverse/measured_shapes.h"
@@ -46,11 +46,6 @@ Eigen::VectorXd weights_of(const face::Face& face, const std::vector<Points>& fi
             head.carrier[static_cast<std::size_t>(v)] != rig::Carrier::kNone && moves[part(v)])
             weight[v] += kOtherParts * mean;
     return weight;
-}
-
-// The rigid motion that minimises the distances between rows of `from` and `to` (Kabsch 1976).
-Rigid nearest_motion(const Points& from, const Points& to) {
-    return Rigid(Eigen::umeyama(from.transpose(), to.transpose(), false));
 }
 
 }  // namespace

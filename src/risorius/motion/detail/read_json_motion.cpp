@@ -4,6 +4,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
+#include "risorius/core/rotations.h"
 #include "risorius/core/text_lines.h"
 #include "risorius/motion/detail/motion_readers.h"
 
@@ -63,11 +64,9 @@ std::optional<Mat3> turn_of_matrix(const JsonCursor& json) {
     else
         list.fail("16 numbers", std::to_string(numbers.size()));
     // The nearest rotation: the matrix may have a scale, and is skewed away from the centre of the picture.
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix.topLeftCorner<3, 3>(),
-                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Mat3 turn = svd.matrixU() * svd.matrixV().transpose();
-    if (!(turn.determinant() > 0)) list.fail("a rotation");
-    return turn;
+    const NearestRotation nearest = nearest_rotation(matrix.topLeftCorner<3, 3>());
+    if (!(nearest.stretch.z() >= 0)) list.fail("a rotation");
+    return nearest.rotation;
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/render/detail/locks.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "risorius/core/rotations.h"
 #include "risorius/render/detail/lock_guides.h"
 
 namespace risorius::render {
@@ -214,10 +214,7 @@ PosedHair pose_hair(const Hair& hair, const Points& rest, const Points& position
     for (std::size_t i = 0; i < hair.roots.size(); i += step)
         sum += (hair.roots[i].on(positions) - to / count) *
                (hair.roots[i].on(rest) - from / count).transpose();
-    const Eigen::JacobiSVD<Mat3> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Mat3 flip = Mat3::Identity();
-    flip(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-    posed.turned = svd.matrixU() * flip * svd.matrixV().transpose();
+    posed.turned = nearest_rotation(sum).rotation;
     posed.moved = to / count - posed.turned * (from / count);
     std::vector<Vec3> roots;
     roots.reserve(hair.roots.size());

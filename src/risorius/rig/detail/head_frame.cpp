@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/rig/detail/head_frame.h"
 
-#include <Eigen/SVD>
+#include "risorius/core/rotations.h"
 
 namespace risorius::rig {
 
@@ -37,13 +37,12 @@ HeadFrame find_head_frame(const std::map<std::string, Vec3>& landmarks, const At
         covariance += (there[i] - there_mean) * (here[i] - here_mean).transpose();
         here_spread += (here[i] - here_mean).squaredNorm();
     }
-    const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Vec3 signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
+    const NearestRotation nearest = nearest_rotation(covariance);
 
     HeadFrame frame;
     frame.metres_per_unit = metres_per_unit;
-    frame.rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-    const double atlas_per_here = svd.singularValues().dot(signs) / here_spread;
+    frame.rotation = nearest.rotation;
+    const double atlas_per_here = nearest.stretch.sum() / here_spread;
     frame.size = 1.0 / atlas_per_here;
     // The tragia define the origin. If they are missing, those of the scaled atlas are used.
     frame.translation = frame.size * there_mean - frame.rotation * here_mean;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/stimuli/detail/seen_motion.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "risorius/core/rotations.h"
 
 namespace risorius::stimuli {
 
@@ -58,18 +59,17 @@ std::vector<Points> without_head(const animate::LandmarkFrames& frames, int firs
     const std::vector<Eigen::Index> skull = rows_of_skull(frames.ids);
     if (skull.size() < 3) return out;  // nothing tells how the head moves
     const auto fixed_points = [&](const Points& of) {
-        Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(skull.size()));
+        Points points(static_cast<Eigen::Index>(skull.size()), 3);
         for (std::size_t i = 0; i < skull.size(); ++i)
-            points.col(static_cast<Eigen::Index>(i)) = of.row(skull[i]).transpose();
+            points.row(static_cast<Eigen::Index>(i)) = of.row(skull[i]);
         return points;
     };
-    const Eigen::Matrix3Xd to = fixed_points(frames.positions_mm[static_cast<std::size_t>(first)]);
+    const Points to = fixed_points(frames.positions_mm[static_cast<std::size_t>(first)]);
     for (Points& points : out) {
-        const Eigen::Matrix3Xd from = fixed_points(points);
+        const Points from = fixed_points(points);
         if (from == to) continue;
-        const Eigen::Matrix4d fit = Eigen::umeyama(from, to, false);
-        points = (points * fit.topLeftCorner<3, 3>().transpose()).rowwise() +
-                 fit.topRightCorner<3, 1>().transpose();
+        const Rigid fit = nearest_motion(from, to);
+        points = (points * fit.linear().transpose()).rowwise() + fit.translation().transpose();
     }
     return out;
 }

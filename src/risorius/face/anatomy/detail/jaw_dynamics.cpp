@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/face/anatomy/detail/jaw_dynamics.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -169,7 +168,7 @@ JawDynamics::Report JawDynamics::minimise(const Step& step, JawVector& q, const 
     JawMatrix hessian, trial_hessian;
     double e = evaluate(q, gradient, hessian);
     while (report.iterations < iterations) {
-        const JawVector direction = -hessian.llt().solve(gradient);
+        const JawVector direction = -solved_positive(hessian, gradient);
         const double slope = gradient.dot(direction);
         report.last_step_m = direction.norm();
         if (!(report.last_step_m > kNewtonTolerance_m)) break;

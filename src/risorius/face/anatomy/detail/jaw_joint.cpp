@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/face/anatomy/detail/jaw_joint.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -46,6 +47,10 @@ JawVector along(const JawPose& pose, const Wrench& wrench) {
     for (int k = 0; k < kMandibleCoordinates; ++k)
         work[k] = wrench.force_n.dot(pose.shift[k]) + torque.dot(pose.turn[k]);
     return work;
+}
+
+JawVector solved_positive(const JawMatrix& matrix, const JawVector& right) {
+    return matrix.llt().solve(right);
 }
 
 JawJoint::JawJoint(const rig::Head& head, const rig::JawDescription& description)

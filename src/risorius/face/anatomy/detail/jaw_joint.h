@@ -45,6 +45,9 @@ struct JawPose {
 /// Returns the generalised force of a wrench on the mandible along each coordinate, N; zero along those of the hyoid.
 JawVector along(const JawPose& pose, const Wrench& wrench);
 
+/// Solves matrix x = right for x. The matrix is symmetric and positive. It is compiled only once, because it takes seconds.
+JawVector solved_positive(const JawMatrix& matrix, const JawVector& right);
+
 /// Position of the jaw in quantities that are usually measured.
 struct JawPlace {
     double open_rad = 0;   ///< opening angle

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "risorius/core/rotations.h"
 #include "risorius/geom/polyline.h"
 
 namespace risorius::face {
@@ -191,7 +192,7 @@ std::vector<Vec3> ContactSearch::turned_normals(const std::vector<LipNode>& lip,
     std::vector<Vec3> turned;
     for (const LipNode& node : lip) {
         const Vec3 column = (x.row(node.node) - x.row(node.deep)).transpose();
-        turned.push_back(Eigen::Quaterniond::FromTwoVectors(node.column, column) * node.normal);
+        turned.push_back(turn_between(node.column, column) * node.normal);
     }
     return turned;
 }

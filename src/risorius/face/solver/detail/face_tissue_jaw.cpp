@@ -3,7 +3,6 @@
 //   x_i = d_i + w_i (T(q) - T(q_n)) X_i,   min over d, q of E_tissue(x, T(q)) + E_jaw(q)
 // The method is L-BFGS. Its metric has one block for the tissue and one for the jaw. The latter is the second derivative of the energy
 // of the jaw, plus that of the resting tissue which follows it.
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "risorius/core/dense_algebra.h"
@@ -111,7 +110,7 @@ StepStats FaceTissue::implicit_step(double h, const Points& start, const Points&
 
     // Then jaw and tissue together
     jaw.dynamics.energy(jaw.step, jaw.q, own, stiffness);
-    const Eigen::LLT<JawMatrix> jaw_metric(stiffness + load.stiffness);
+    const JawMatrix jaw_metric = stiffness + load.stiffness;
     const solve::SparseCholesky& tissue_metric = metric(h);
     Points tissue_part, tissue_move;
     const solve::StepReport report = newton_.minimise(
@@ -121,7 +120,7 @@ StepStats FaceTissue::implicit_step(double h, const Points& start, const Points&
             tissue_part = b.topRows(rows);
             solids_->precondition(tissue_metric, tissue_part, tissue_move);
             y.topRows(rows) = tissue_move;
-            put_jaw(jaw_metric.solve(jaw_of(b)), y);
+            put_jaw(solved_positive(jaw_metric, jaw_of(b)), y);
         },
         unknowns, options);
     jaw.q = jaw_of(unknowns);
