@@ -246,36 +246,36 @@ TEST_F(Batch, RefusesBeforeAnythingIsMade) {
               std::string::npos);
 }
 
-TEST_F(Batch, FiltersAndNoiseChangeTheOvalAlone) {
-    Json json = Json::parse(text_of(design("oval.json", {1}, R"([
-        {"control": "low_pass", "cycles_per_face": 3}, {"control": "high_pass", "cycles_per_face": 3},
-        {"control": "noise", "snr_db": 0}, "oval", "mirrored", "mondrian",
-        {"control": "point_light", "dots": 5, "radius": 0.06}])")));
-    json["clips"].erase("photodiode");
-    json["clips"]["aois"] = {"eye_l", "mouth", "face"};
-    json["clips"]["quality"] = "draft";
-    std::ofstream(folder().path() / "oval.json") << json.dump();
-    const BatchOptions options{
-        .design = folder().path() / "oval.json", .out = folder().path() / "oval", .workers = 2};
-    EXPECT_EQ(make_batch(options).made, 8);
-    const auto frame_of = [&](const char* clip) {
-        return media::VideoReader(options.out /
-                                  ("stimuli/stim-smile1" + std::string(clip) + "_video.mkv"))
-            .frame(2);
-    };
-    const Image plain = frame_of(""), oval = frame_of("Oval");
-    const animate::FrameRows rows =
-        animate::frame_rows(text_of(options.out / "stimuli/stim-smile1_annot-frames_events.tsv"));
+/// Clips of one smile with its controls, as the test below has made them.
+struct SmileSet {
+    fs::path out;
+    Image frame(const std::string& control, int number = 2) const {
+        return media::VideoReader(out / ("stimuli/stim-smile1" + control + "_video.mkv"))
+            .frame(number);
+    }
+    animate::FrameRows table(const std::string& control, const char* name = "frames") const {
+        const fs::path file =
+            out / ("stimuli/stim-smile1" + control + "_annot-" + name + "_events.tsv");
+        return fs::exists(file) ? animate::frame_rows(text_of(file)) : animate::FrameRows{};
+    }
+};
+
+/// Where the tip of the nose is in frame 2.
+std::pair<int, int> nose_of(const animate::FrameRows& rows) {
     const int u = rows.column("prn.u_px");
-    const int nose_x = static_cast<int>(rows.number(2, u)),
-              nose_y = static_cast<int>(rows.number(2, u + 1));
+    return {static_cast<int>(rows.number(2, u)), static_cast<int>(rows.number(2, u + 1))};
+}
+
+void expect_changes_in_the_oval_alone(const SmileSet& set) {
+    const Image plain = set.frame(""), oval = set.frame("Oval");
+    const auto [nose_x, nose_y] = nose_of(set.table(""));
     EXPECT_TRUE(std::equal(oval.pixel(nose_x, nose_y), oval.pixel(nose_x, nose_y) + 3,
                            plain.pixel(nose_x, nose_y)));
     const int neck_y = 62;
     EXPECT_NE(plain.pixel(24, neck_y)[0], 128) << "the neck";
     EXPECT_EQ(oval.pixel(24, neck_y)[0], 128);
     for (const char* clip : {"LowPass3", "HighPass3", "Noise0"}) {
-        const Image image = frame_of(clip);
+        const Image image = set.frame(clip);
         int changed = 0;
         for (int y = 0; y < 64; ++y)
             for (int x = 0; x < 48; ++x) {
@@ -287,14 +287,12 @@ TEST_F(Batch, FiltersAndNoiseChangeTheOvalAlone) {
             }
         EXPECT_GT(changed, 200) << clip;
     }
-    // Mirrored: pictures, and the table with them
-    const auto rows_of = [&](const char* clip) {
-        return animate::frame_rows(
-            text_of(options.out / "stimuli" /
-                    ("stim-smile1" + std::string(clip) + "_annot-frames_events.tsv")));
-    };
-    const Image mirrored = frame_of("Mirrored");
-    const animate::FrameRows other = rows_of("Mirrored");
+}
+
+/// The pictures, and the table with them.
+void expect_mirrored(const SmileSet& set) {
+    const Image plain = set.frame(""), mirrored = set.frame("Mirrored");
+    const animate::FrameRows rows = set.table(""), other = set.table("Mirrored");
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 48; ++x) ASSERT_EQ(mirrored.pixel(x, y)[1], plain.pixel(47 - x, y)[1]);
     const auto cell = [](const animate::FrameRows& of, const char* column) {
@@ -305,36 +303,37 @@ TEST_F(Batch, FiltersAndNoiseChangeTheOvalAlone) {
     EXPECT_EQ(cell(other, "ch_l.x_mm"), -cell(rows, "ch_r.x_mm"));
     EXPECT_EQ(cell(other, "activation.zygomaticus_major.l"),
               cell(rows, "activation.zygomaticus_major.r"));
-    // Areas of interest follow the picture
-    const auto table_of_aois = [&](const std::string& clip) {
-        const fs::path file =
-            options.out / ("stimuli/stim-smile1" + clip + "_annot-aois_events.tsv");
-        return fs::exists(file) ? animate::frame_rows(text_of(file)) : animate::FrameRows{};
-    };
-    const animate::FrameRows aois = table_of_aois(""), aois_mirrored = table_of_aois("Mirrored");
+}
+
+/// Areas of interest follow the picture.
+void expect_areas(const SmileSet& set) {
+    const animate::FrameRows aois = set.table("", "aois"), mirrored = set.table("Mirrored", "aois");
     ASSERT_EQ(aois.rows(), 3 * 5);
     EXPECT_EQ(aois.cells[1][3], "mouth");
     EXPECT_EQ(aois.cells[1][4], "1");
     EXPECT_GT(aois.number(3 * 4 + 1, 5), 1.1 * aois.number(1, 5)) << "a smile widens the mouth";
     EXPECT_GT(std::stod(aois.cells[0][6]), 24) << "the left eye is on the right";
-    EXPECT_GT(std::stod(aois_mirrored.cells[0][6]), 24);
-    EXPECT_EQ(table_of_aois("Mondrian").rows(), 0);
-    const Json key_frames = Json::parse(text_of(options.out / "aois/smile1_tobii.json"));
+    EXPECT_GT(std::stod(mirrored.cells[0][6]), 24);
+    EXPECT_EQ(set.table("Mondrian", "aois").rows(), 0);
+    const Json key_frames = Json::parse(text_of(set.out / "aois/smile1_tobii.json"));
     EXPECT_EQ(key_frames.at("aois").at(1).at("name"), "mouth");
     EXPECT_EQ(key_frames.at("aois").at(1).at("key_frames").at(0).at("time"), 0);
     EXPECT_GE(key_frames.at("aois").at(1).at("key_frames").size(), 2u);
-    // A mask has the mean of the face, no landmarks and no moments
-    const animate::FrameRows mask = rows_of("Mondrian");
-    EXPECT_LT(mask.column("ch_l.u_px"), 0);
-    EXPECT_NE(
-        frame_of("Mondrian").rgba,
-        media::VideoReader(options.out / "stimuli/stim-smile1Mondrian_video.mkv").frame(1).rgba);
-    const Json sidecar =
-        Json::parse(text_of(options.out / "stimuli/stim-smile1Mondrian_video.json"));
+}
+
+/// A mask changes, and has no landmarks and no moments.
+void expect_mask(const SmileSet& set) {
+    EXPECT_LT(set.table("Mondrian").column("ch_l.u_px"), 0);
+    EXPECT_NE(set.frame("Mondrian").rgba, set.frame("Mondrian", 1).rgba);
+    const Json sidecar = Json::parse(text_of(set.out / "stimuli/stim-smile1Mondrian_video.json"));
     EXPECT_TRUE(sidecar.at("movement_onset_frame").is_null());
     EXPECT_TRUE(sidecar.at("motion").at("seen_mm").is_null());
-    // Dots on the landmarks alone
-    const Image dots = frame_of("PointLight");
+}
+
+/// Five dots on landmarks, and background.
+void expect_dots(const SmileSet& set) {
+    const Image dots = set.frame("PointLight");
+    const auto [nose_x, nose_y] = nose_of(set.table(""));
     EXPECT_GT(dots.pixel(nose_x, nose_y)[1], 230);
     int bright = 0, background = 0;
     for (int y = 0; y < 64; ++y)
@@ -345,6 +344,26 @@ TEST_F(Batch, FiltersAndNoiseChangeTheOvalAlone) {
     EXPECT_GE(bright, 5);
     EXPECT_LT(bright, 5 * 16);
     EXPECT_GT(background, 48 * 64 - 5 * 30);
+}
+
+TEST_F(Batch, ControlsOfAnOvalChangeTheOvalAlone) {
+    Json json = Json::parse(text_of(design("oval.json", {1}, R"([
+        {"control": "low_pass", "cycles_per_face": 3}, {"control": "high_pass", "cycles_per_face": 3},
+        {"control": "noise", "snr_db": 0}, "oval", "mirrored", "mondrian",
+        {"control": "point_light", "dots": 5, "radius": 0.06}])")));
+    json["clips"].erase("photodiode");
+    json["clips"]["aois"] = {"eye_l", "mouth", "face"};
+    json["clips"]["quality"] = "draft";
+    std::ofstream(folder().path() / "oval.json") << json.dump();
+    const BatchOptions options{
+        .design = folder().path() / "oval.json", .out = folder().path() / "oval", .workers = 2};
+    EXPECT_EQ(make_batch(options).made, 8);
+    const SmileSet set{options.out};
+    expect_changes_in_the_oval_alone(set);
+    expect_mirrored(set);
+    expect_areas(set);
+    expect_mask(set);
+    expect_dots(set);
     // What its name does not tell changes a control, too
     const std::string before = plan_batch(options.design).clips[7].content_sha256;
     json["sets"][0]["controls"][6]["dots"] = 6;
