@@ -271,7 +271,12 @@ std::vector<Condition> conditions_of(const Design& design, const FindIntensity& 
             condition.set = set.name;
             for (const std::string& name : values.names())
                 condition.values.emplace_back(name, values.at(name));
-            const Json script = values.filled(set.script);
+            Json script = values.filled(set.script);
+            if (set.sample) {
+                condition.units = set.trials[static_cast<std::size_t>(levels[0])].units;
+                script = with_units(std::move(script), condition.units, set.sample->length_s,
+                                    set.script.place());
+            }
             condition.script = script;
             condition.folder = set.script.folder();
             add_sound(set, values, condition);

@@ -12,7 +12,7 @@
 #include "risorius/core/existing_file.h"
 #include "risorius/core/known_names.h"
 #include "risorius/design/conditions.h"
-#include "risorius/design/detail/table.h"
+#include "risorius/design/table.h"
 
 namespace risorius::design {
 
@@ -84,9 +84,22 @@ std::vector<std::vector<Given>> read_rows(const JsonCursor& json) {
     return rows;
 }
 
+/// Draws the trials of a set, and makes a row of conditions of each.
+void add_sample(const JsonCursor& json, const JsonCursor& of, int seed, ConditionSet& set) {
+    for (const char* key : {"conditions", "fraction", "draw"})
+        if (of.has(key)) of.at(key).fail("nothing beside \"sample\", which draws the conditions");
+    set.sample = read_sample(json);
+    CounterRng place(static_cast<std::uint64_t>(seed));
+    for (const char c : set.name) place.at(static_cast<unsigned char>(c));
+    set.trials = sampled_trials(*set.sample, static_cast<unsigned>(place.bits()));
+    set.rows.clear();
+    for (const Trial& trial : set.trials)
+        set.rows.push_back({{"trial", JsonCursor::from_json(trial.number, json.place())}});
+}
+
 ConditionSet read_set(const JsonCursor& json, int seed) {
     json.allow_keys({"name", "script", "parameters", "factors", "conditions", "fraction", "draw",
-                     "overrides", "clip", "controls", "audio", "audio_start_s"});
+                     "overrides", "clip", "controls", "audio", "audio_start_s", "sample"});
     const JsonCursor script = json.at("script");
     ConditionSet set{
         .name = json.at("name").string(),
@@ -126,6 +139,7 @@ ConditionSet read_set(const JsonCursor& json, int seed) {
             one.allow_keys({"when", "set"});
             set.overrides.push_back({read_values(one.at("when")), read_values(one.at("set"))});
         }
+    if (const auto v = json.find("sample")) add_sample(*v, json, seed, set);
     if (const auto v = json.find("controls"))
         for (const JsonCursor& one : v->items()) set.controls.push_back(read_control(one));
     return set;

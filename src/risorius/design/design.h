@@ -13,6 +13,7 @@
 #include "risorius/design/detail/controls.h"
 #include "risorius/design/detail/crossing.h"
 #include "risorius/design/detail/parameters.h"
+#include "risorius/design/detail/sample.h"
 
 namespace risorius::design {
 
@@ -46,6 +47,9 @@ struct ConditionSet {
     std::vector<Control> controls;
     std::optional<JsonCursor> audio;          ///< a WAV or FLAC file; may contain ${names}
     std::optional<JsonCursor> audio_start_s;  ///< time of its first sample, or a formula
+    /// Random facial movements, and the trial of each row
+    std::optional<SampleOptions> sample = {};
+    std::vector<Trial> trials = {};
     std::string place;
 };
 

@@ -117,6 +117,9 @@ BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped)
     plan.pulse_ms = design.pulse_ms;
     plan.dataset = design.dataset;
     for (const design::ConditionSet& set : design.sets)
+        if (set.sample)
+            plan.samples.emplace_back(set.name, design::balance_of(set.trials, *set.sample));
+    for (const design::ConditionSet& set : design.sets)
         if (!set.fraction.empty() || set.draw)
             plan.balances.emplace_back(set.name, design::balance_of(set, design.seed));
     plan.inputs = std::make_shared<animate::RenderInputs>(stopped);

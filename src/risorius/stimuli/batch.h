@@ -35,6 +35,8 @@ struct BatchOptions {
 /// A design that has been read and checked.
 struct BatchPlan {
     std::string name;
+    /// What was drawn at random for reverse correlation, by set
+    std::vector<std::pair<std::string, design::SampleBalance>> samples;
     design::Match match;
     std::optional<design::ExperimentOptions> experiment;
     double pulse_ms = 10;  ///< see design::Design

@@ -226,4 +226,36 @@ Catalogue catalogue_of(const BatchPlan& plan, const std::vector<Json>& records) 
     return out;
 }
 
+Catalogue sample_of(const BatchPlan& plan, const std::vector<Json>& records) {
+    Catalogue out{.table = "trial\tstimulus_id\tunit", .columns = Json::object()};
+    for (const std::string& name : design::course_parameters()) out.table += "\t" + name;
+    out.table += "\tseen_mm\n";
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const ClipPlan& clip = plan.clips[i];
+        if (clip.is_control()) continue;
+        for (const design::UnitCourse& unit : clip.condition.units) {
+            out.table += catalogue_cell(records[i].at("values").at("trial")) + "\tstim-" +
+                         clip.condition.clip + "\t" + unit.unit;
+            for (std::size_t k = 0; k < design::course_parameters().size(); ++k)
+                out.table += "\t" + format_number(design::parameter(unit, k));
+            const Json& seen = records[i].at("motion").at("seen_mm");
+            out.table += "\t" + catalogue_cell(seen.is_null() ? seen : rounded(seen)) + "\n";
+        }
+    }
+    out.columns = {
+        {"trial", described("Number of the trial; heads and other factors show the same ones")},
+        {"stimulus_id", described("The clip, as in stimuli/stimuli.tsv")},
+        {"unit", described("An action unit that moves in it, of one side with .l or .r")},
+        {"amplitude", described("Its intensity at the peak, 0 to 1")},
+        {"onset_latency_s", described("When it begins", "s")},
+        {"peak_latency_s", described("When it is at its peak", "s")},
+        {"offset_latency_s", described("When it is back at rest, or the clip ends", "s")},
+        {"acceleration", described("Exponent p of the rise: its largest speed is amplitude p / "
+                                   "(peak_latency_s - onset_latency_s)")},
+        {"deceleration", described("The same of the fall")},
+        {"seen_mm",
+         described("Farthest way of a landmark in the clip, of all units together", "mm")}};
+    return out;
+}
+
 }  // namespace risorius::stimuli

@@ -24,4 +24,8 @@ struct Catalogue {
 /// `records`: the sidecars of the clips of the plan.
 Catalogue catalogue_of(const BatchPlan& plan, const std::vector<Json>& records);
 
+/// Returns the table of random movements, a row for each clip and active unit. It alone makes the clips again, as "table" of "sample"
+/// in a design.
+Catalogue sample_of(const BatchPlan& plan, const std::vector<Json>& records);
+
 }  // namespace risorius::stimuli

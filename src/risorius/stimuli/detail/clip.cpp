@@ -212,6 +212,8 @@ void find_commanded(const track::ScriptDescription& script, double lead_s, Shown
 
 /// SeenMotion::full_mm of a clip.
 std::optional<double> full_motion_mm(const ClipPlan& plan, const ClipWorker& worker) {
+    // Random movements have no full intensity.
+    if (!plan.condition.units.empty()) return {};
     const std::optional<Json> script = expression_at_full_intensity(plan.condition.script);
     if (!script) return {};
     ClipPlan full = plan;

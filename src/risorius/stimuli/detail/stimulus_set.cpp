@@ -52,7 +52,7 @@ Json dataset_description(const BatchPlan& plan) {
 
 /// Files that BIDS does not know.
 constexpr const char* kBidsIgnore =
-    "SHA256SUMS\nindex.html\ntriggers.tsv\ncodes.tsv\ncode/\nexperiment/\nluminance/\noverview/"
+    "SHA256SUMS\nindex.html\ntriggers.tsv\ncodes.tsv\nsample.tsv\nsample.json\ncode/\nexperiment/\nluminance/\noverview/"
     "\naois/\n"
     "intermediate/\n*.new\n.risorius-*\n";
 /// The annotations of BEP044.
@@ -165,6 +165,11 @@ std::vector<std::string> write_set(const BatchPlan& plan, const BatchOptions& op
                                          : std::string(kAnnotations) + kAoiAnnotation);
     write("triggers.tsv", triggers(records, plan.codes));
     if (!plan.codes.table.empty()) write("codes.tsv", plan.codes.table);
+    if (!plan.samples.empty()) {
+        const Catalogue sample = sample_of(plan, records);
+        write("sample.tsv", sample.table);
+        write("sample.json", json_text(sample.columns, 2) + "\n");
+    }
     // It may be the design that is read.
     if (std::error_code none; fs::equivalent(design, folder / "code/design.json", none))
         files.insert("code/design.json");
