@@ -46,6 +46,7 @@ double chance(int seed, const std::string& name, int index) {
 
 constexpr int kMaxLevels = 100000;
 constexpr double kBroadcastLufs = -23;  // EBU R 128
+constexpr int kMaxRounds = 50;
 
 Factor read_factor(const JsonCursor& json, const std::string& name, int seed) {
     Factor factor{.name = name, .levels = {}};
@@ -173,7 +174,8 @@ ClipOptions read_clips(const JsonCursor& json) {
 
 LuminanceMatch read_luminance(const JsonCursor& json) {
     using OneFor = LuminanceMatch::OneFor;
-    json.allow_keys({"within", "one_for", "mean", "sd", "cut_limit", "allow_clipping"});
+    json.allow_keys({"within", "one_for", "mean", "sd", "cut_limit", "allow_clipping", "histogram",
+                     "spectrum", "rounds", "colour"});
     LuminanceMatch out;
     if (const auto v = json.find("within"))
         out.within_face = v->one_of({"picture", "face"}) == "face";
@@ -188,6 +190,13 @@ LuminanceMatch read_luminance(const JsonCursor& json) {
     if (const auto v = json.find("sd")) out.sd = v->number({0.001, 0.5});
     if (const auto v = json.find("cut_limit")) out.cut_limit = v->number({0, 1});
     if (const auto v = json.find("allow_clipping")) out.allow_clipping = v->boolean();
+    if (const auto v = json.find("histogram")) out.histogram = v->boolean();
+    if (const auto v = json.find("spectrum")) out.spectrum = v->one_of({"rotational"}) != "";
+    if (const auto v = json.find("rounds")) {
+        if (!out.spectrum) v->fail("\"spectrum\" beside it", "none");
+        out.rounds = v->integer(1, kMaxRounds);
+    }
+    if (const auto v = json.find("colour")) out.grey = v->one_of({"keep", "grey"}) == "grey";
     if (out.one_for == OneFor::kAll && !out.mean && !out.sd)
         json.fail(
             "\"mean\" or \"sd\" to match all clips to, or \"one_for\": \"identity\" or \"clip\"",

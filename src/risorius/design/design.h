@@ -82,6 +82,11 @@ struct LuminanceMatch {
     /// Largest fraction of channel values that may be clipped at black and white in a clip
     double cut_limit = 0.005;
     bool allow_clipping = false;  ///< whether more is a note instead of an error
+    /// Whether all groups get the same histogram, and the same amplitude at each spatial frequency, in so many rounds
+    bool histogram = false, spectrum = false;
+    int rounds = 10;
+    bool grey = false;  ///< whether the face is shown without colour
+    bool has_maps() const { return histogram || spectrum; }
 };
 
 /// Makes steps of intensity equal as they are seen: adds the factor "seen_step", and sets a parameter by search.

@@ -17,6 +17,7 @@
 #include "risorius/design/conditions.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/stimuli/detail/experiment_files.h"
+#include "risorius/stimuli/detail/luminance_maps.h"
 #include "risorius/stimuli/detail/luminance_match.h"
 #include "risorius/stimuli/detail/motion_match.h"
 #include "risorius/stimuli/detail/own_files.h"
@@ -139,6 +140,7 @@ BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped)
             plan_clip(condition, lead_s[condition.set], design, *plan.inputs, sounds));
     plan.codes = codes_of_clips(plan.clips, design);
     share_renders(plan.clips);
+    name_maps(plan);
     check_experiment(plan);
     note_twins(plan);
     return plan;

@@ -73,14 +73,16 @@ void show_matched(const UnmatchedRender& render, const ProgressMonitor& monitor,
 Json matched_luminance(const ClipPlan& plan, const UnmatchedRender& render,
                        const ClipPictures& pictures) {
     const media::Tone tone = plan.tone.value_or(media::Tone{});
-    return {{"film_sha256", plan.render_sha256},
-            {"within", plan.luminance->within_face ? "face" : "picture"},
-            {"gain", tone.gain},
-            {"offset", tone.offset},
-            {"before", json_of(render.luminance)},
-            {"colours", render.colours},
-            {"after", json_of(pictures.luminance())},
-            {"cut_off", pictures.cut_off()}};
+    Json out{{"film_sha256", plan.render_sha256},
+             {"within", plan.luminance->within_face ? "face" : "picture"},
+             {"gain", plan.mapped ? Json() : Json(tone.gain)},
+             {"offset", plan.mapped ? Json() : Json(tone.offset)},
+             {"before", json_of(render.luminance)},
+             {"colours", render.colours},
+             {"after", json_of(pictures.luminance())},
+             {"cut_off", pictures.cut_off()}};
+    if (plan.mapped) out.update(pictures.map_report());
+    return out;
 }
 
 }  // namespace
@@ -359,7 +361,7 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
     write_file(sidecar, json_text(record, 2) + "\n");
     worker.monitor.throw_if_stopped();
     outputs.commit();
-    if (unmatched && !plan.render_is_shared) remove_unmatched_render(plan, folder);
+    if (unmatched && !plan.render_is_shared && !plan.mapped) remove_unmatched_render(plan, folder);
 }
 
 }  // namespace risorius::stimuli

@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -29,10 +30,18 @@
 #include "risorius/core/json_cursor.h"
 #include "risorius/design/conditions.h"
 #include "risorius/design/design.h"
+#include "risorius/media/luminance_map.h"
 #include "risorius/media/tone.h"
 #include "risorius/stimuli/detail/clip_sound.h"
 
 namespace risorius::stimuli {
+
+/// What a clip gets when histograms or spectra are matched, and what that aims at.
+struct MappedLuminance {
+    media::LuminanceMap map;
+    std::vector<double> target;      ///< quantile function of luminance
+    std::vector<double> amplitudes;  ///< by cycles per picture; empty: only the histogram
+};
 
 /// A clip that has been planned and checked, but not made.
 struct ClipPlan {
@@ -44,6 +53,8 @@ struct ClipPlan {
     std::optional<design::LuminanceMatch> luminance;
     /// Map of luminance; it is set when the renders of all conditions have been measured
     std::optional<media::Tone> tone;
+    /// In place of the tone when histograms or spectra are matched
+    std::shared_ptr<const MappedLuminance> mapped;
     std::optional<ClipSound> sound;
     int frames = 0, fps = 0, width_px = 0, height_px = 0;
     /// Frames at the beginning that show the first one, because a recording of the set begins before the script; part of `frames`

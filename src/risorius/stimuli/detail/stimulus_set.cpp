@@ -52,7 +52,8 @@ Json dataset_description(const BatchPlan& plan) {
 
 /// Files that BIDS does not know.
 constexpr const char* kBidsIgnore =
-    "SHA256SUMS\nindex.html\ntriggers.tsv\ncodes.tsv\nsample.tsv\nsample.json\ncode/\nexperiment/\nluminance/\noverview/"
+    "SHA256SUMS\nindex.html\ntriggers.tsv\ncodes.tsv\nsample.tsv\nsample.json\ncode/\nexperiment/"
+    "\nluminance/\noverview/"
     "\naois/\n"
     "intermediate/\n*.new\n.risorius-*\n";
 /// The annotations of BEP044.
