@@ -200,6 +200,10 @@ void add_batch(CLI::App& app) {
         "Replace files of the set that were changed since they were made. Without it, "
         "a changed clip is an error, and a changed program or table stays: the new "
         "one is put beside it as NAME.new");
+    command->add_option(
+        "--norms", options.norms,
+        "A table of ratings with participant, stimulus_id and answer, and scales such as valence: "
+        "hit rates, confusion and agreement become part of the set");
     command->add_option("--workers", options.workers, "Clips made at once")->capture_default_str();
     command->add_option(
         "--part", arguments->part,

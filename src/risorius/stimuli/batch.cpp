@@ -20,6 +20,7 @@
 #include "risorius/stimuli/detail/luminance_maps.h"
 #include "risorius/stimuli/detail/luminance_match.h"
 #include "risorius/stimuli/detail/motion_match.h"
+#include "risorius/stimuli/detail/norms.h"
 #include "risorius/stimuli/detail/own_files.h"
 #include "risorius/stimuli/detail/stimulus_set.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
@@ -91,6 +92,12 @@ void note_twins(BatchPlan& plan) {
 }
 
 }  // namespace
+
+std::vector<std::string> clip_names(const BatchPlan& plan) {
+    std::vector<std::string> out;
+    for (const ClipPlan& clip : plan.clips) out.push_back(clip.condition.clip);
+    return out;
+}
 
 double BatchPlan::seconds() const {
     double sum = 0;
@@ -277,6 +284,7 @@ BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monit
     const report::Stopwatch time;
     BatchPlan plan = plan_batch(options.design, monitor.stopped);
     check_own_folder(options.out);
+    if (!options.norms.empty()) read_ratings(options.norms, clip_names(plan));
     BatchReport report;
     report.name = plan.name;
     BatchRun run(options, monitor, *plan.inputs, report);

@@ -116,7 +116,7 @@ double SettledMotions::at(const std::string& key, const std::function<double()>&
 std::vector<fs::path> ClipFiles::listed() const {
     std::vector<fs::path> files{script, strip, video, events, columns};
     if (!sound.empty()) files.push_back(sound);
-    if (!aois.empty()) files.insert(files.end(), {aois, aoi_columns, aoi_key_frames});
+    if (!aois.empty()) files.insert(files.end(), {aois, aoi_columns, aoi_key_frames, aoi_ias});
     return files;
 }
 
@@ -133,6 +133,7 @@ ClipFiles clip_files(const ClipPlan& plan) {
             only(stem(plan) + "_annot-aois_events.tsv"),
             only(stem(plan) + "_annot-aois_events.json"),
             only("aois/" + plan.condition.clip + "_tobii.json"),
+            only("aois/" + plan.condition.clip + ".ias"),
             stem(plan) + suffix(plan) + ".json"};
 }
 
@@ -304,6 +305,7 @@ Json sidecar_of(const ClipPlan& plan, ShownClip shown, ClipPictures& pictures) {
                            {"sha256", plan.sound->sha256},
                            {"offset_samples", plan.sound->offset_samples},
                            {"gain_db", plan.sound->gain_db},
+                           {"onset_s", or_null(plan.sound->onset_s)},
                            {"loudness_lufs", finite_or_null(plan.sound->loudness.integrated_lufs)},
                            {"true_peak_dbtp", finite_or_null(plan.sound->loudness.true_peak_dbtp)}};
     if (!shown.luminance.is_null()) record["luminance"] = std::move(shown.luminance);
@@ -351,6 +353,7 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
         write_file(written[files.aois], aois.table);
         write_file(written[files.aoi_columns], aois.columns);
         write_file(written[files.aoi_key_frames], aois.key_frames);
+        write_file(written[files.aoi_ias], aois.ias);
     }
     if (plan.sound)
         media::write_wav(heard_of(*plan.sound, static_cast<double>(plan.frames) / plan.fps),

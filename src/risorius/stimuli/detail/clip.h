@@ -8,7 +8,7 @@
 ///                                                columns of frame_table.h
 ///   stimuli/stim-NAME_annot-frames_events.json   what each column of that table is
 ///   stimuli/stim-NAME_video.json                 the sidecar: how the clip was made; it exists only when the clip is complete
-///   stimuli/stim-NAME_annot-aois_events.tsv      areas of interest, with their .json and aois/NAME_tobii.json; see aois.h
+///   stimuli/stim-NAME_annot-aois_events.tsv      areas of interest, with their .json, aois/NAME_tobii.json and aois/NAME.ias; see aois.h
 ///   overview/NAME.png                            five of its frames side by side
 ///   code/scripts/NAME.json                       the script as it was played; it is written for the reader, not read back
 #pragma once
@@ -88,8 +88,9 @@ bool is_made(const ClipPlan& plan, const std::filesystem::path& folder);
 /// The paths of a clip's files below the folder of the set.
 struct ClipFiles {
     std::filesystem::path script, strip, video, events, columns;
-    std::filesystem::path sound;                              ///< empty when there is none
-    std::filesystem::path aois, aoi_columns, aoi_key_frames;  ///< empty when none are asked for
+    std::filesystem::path sound;  ///< empty when there is none
+    std::filesystem::path aois, aoi_columns, aoi_key_frames,
+        aoi_ias;                    ///< empty when none are asked for
     std::filesystem::path sidecar;  ///< written last: a clip that has it is complete
     /// All files but the sidecar, which lists them.
     std::vector<std::filesystem::path> listed() const;

@@ -20,7 +20,7 @@ using design::ControlKind;
 
 namespace {
 
-constexpr int kStrip = 5, kThumb_px = 120;
+constexpr int kThumb_px = 120;
 constexpr int kPhotodiode_px = 64;
 constexpr unsigned kNextFrame = 0x9E3779B9;
 constexpr double kLeastPxPerCycle = 4;  // an octave below half the sampling rate
@@ -90,6 +90,8 @@ bool is_of_landmark(const std::string& column) {
 }
 
 }  // namespace
+
+int strip_frame(int index, int frames) { return (2 * index + 1) * frames / (2 * kStripFrames); }
 
 double width_of_face(const animate::FrameRows& rows, const std::string& place) {
     const int left = rows.column("zy_l.u_px"), right = rows.column("zy_r.u_px");
@@ -164,10 +166,9 @@ void ClipPictures::finish(const std::vector<int>& order) {
 
 Image ClipPictures::strip() const {
     const Image& first = thumbs_.front();
-    Image out(kStrip * first.width_px, first.height_px);
-    for (int i = 0; i < kStrip; ++i) {
-        const std::size_t at =
-            (2 * static_cast<std::size_t>(i) + 1) * thumbs_.size() / (2 * kStrip);
+    Image out(kStripFrames * first.width_px, first.height_px);
+    for (int i = 0; i < kStripFrames; ++i) {
+        const auto at = static_cast<std::size_t>(strip_frame(i, static_cast<int>(thumbs_.size())));
         for (int y = 0; y < first.height_px; ++y)
             std::copy_n(thumbs_[at].pixel(0, y), 4 * first.width_px,
                         out.pixel(i * first.width_px, y));

@@ -30,6 +30,10 @@ bool shows_one_picture(design::ControlKind kind);
 /// Returns whether all frames are needed before the first one is written.
 bool needs_all_frames(const ClipPlan& plan);
 
+/// The frames of a clip that its strip shows.
+inline constexpr int kStripFrames = 5;
+int strip_frame(int index, int frames);
+
 /// Returns the distance of the landmarks zy_l and zy_r in the first frame, px. Throws Error naming `place` when there are none.
 double width_of_face(const animate::FrameRows& rows, const std::string& place);
 

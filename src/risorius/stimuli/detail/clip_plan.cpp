@@ -151,7 +151,7 @@ std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256
 }
 
 /// Changes when clips are made or measured in another way, so that older ones are made anew.
-constexpr int kWayOfMaking = 2;
+constexpr int kWayOfMaking = 3;
 
 Json or_none(const std::optional<int>& value) { return value ? Json(*value) : Json(); }
 
