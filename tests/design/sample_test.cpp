@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Random facial movements: as often as asked, as independent as can be, and made again from their table.
-#include "risorius/design/detail/sample.h"
+#include "risorius/design/sample.h"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 #include "risorius/design/detail/controls.h"
 #include "risorius/design/detail/crossing.h"
 #include "risorius/design/detail/parameters.h"
-#include "risorius/design/detail/sample.h"
+#include "risorius/design/sample.h"
 
 namespace risorius::design {
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "risorius/core/progress_monitor.h"
-#include "risorius/design/detail/sample.h"
+#include "risorius/design/sample.h"
 
 namespace risorius::stimuli {
 

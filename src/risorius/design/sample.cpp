@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/design/detail/sample.h"
+#include "risorius/design/sample.h"
 
 #include <algorithm>
 #include <cmath>
