@@ -138,6 +138,43 @@ TEST_F(Designs, ControlsComeBesideTheirConditions) {
     EXPECT_FALSE(all[8].script.contains("events"));
 }
 
+// A head at rest is one clip for all conditions that show it as long and in the same view.
+TEST_F(Designs, NeutralFacesAreSharedByConditions) {
+    Json json = design(R"({"factors": {"expression": ["happiness", "fear"], "intensity": [0.5, 1],
+                                       "hold_s": [0.1, 0.2]},
+                           "clip": "face_${expression}_${intensity}_${hold_s}", "controls": ["neutral"]})");
+    const auto neutral = [](const std::vector<Condition>& all) {
+        std::vector<Condition> out;
+        for (const Condition& one : all)
+            if (one.control.kind == ControlKind::kNeutral) out.push_back(one);
+        return out;
+    };
+    const std::vector<Condition> all = conditions(json);
+    EXPECT_EQ(all.size(), 8u + 2u);
+    const std::vector<Condition> two = neutral(all);
+    EXPECT_EQ(clips(two), (std::vector<std::string>{"face0p1Neutral", "face0p2Neutral"}));
+    EXPECT_EQ(two[0].of, "faceHappiness0p50p1");
+    // Only values that hold for all of them
+    std::set<std::string> names;
+    for (const auto& [name, value] : two[0].values) names.insert(name);
+    EXPECT_EQ(names, (std::set<std::string>{"fps", "hold_s", "onset_s", "set"}));
+    // A recording of its own makes another clip
+    write("a.wav", "");
+    write("b.wav", "");
+    json["sets"][0]["conditions"] = Json::parse(R"([{"voice": "a.wav"}, {"voice": "b.wav"}])");
+    json["sets"][0]["audio"] = "${voice}";
+    json["sets"][0]["clip"] = "${expression}_${intensity}_${voice}_${hold_s}";
+    EXPECT_EQ(neutral(conditions(json)).size(), 4u);
+    // Where nothing in common tells two heads apart, they have the name of their first condition
+    json =
+        design(R"({"conditions": [{"n": 1, "rig": "a"}, {"n": 2, "rig": "a"}, {"n": 3, "rig": "b"},
+                                     {"n": 4, "rig": "b"}],
+                      "factors": {}, "parameters": {"expression": "fear", "intensity": 1},
+                      "clip": "${n}", "controls": ["neutral"]})");
+    json["sets"][0]["script"]["rig"] = "${rig}";
+    EXPECT_EQ(clips(neutral(conditions(json))), (std::vector<std::string>{"neutral", "3Neutral"}));
+}
+
 TEST_F(Designs, RefuseWhatCannotBeMeant) {
     Json json = design();
     json["parameters"]["onset_s"] = "= hold_s * 2";

@@ -14,7 +14,7 @@
 #include "risorius/design/conditions.h"
 #include "risorius/design/design.h"
 #include "risorius/design/detail/arithmetic.h"
-#include "risorius/design/detail/table.h"
+#include "risorius/design/table.h"
 #include "risorius/headmodel/detail/identity.h"
 #include "risorius/headmodel/detail/tables.h"
 #include "risorius/inverse/measured_shapes.h"

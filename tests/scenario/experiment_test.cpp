@@ -80,6 +80,17 @@ class Experiment : public testing::Test {
         delete first_event;
         delete folder;
     }
+    /// Makes jsPsych known to the set; returns what is missing to play its page.
+    static std::string missing_browser() {
+        const fs::path modules = jspsych();
+        if (modules.empty()) return "no jsPsych here (tools/setup.sh test fetches it by npm)";
+        for (const char* program : {"chromium", "python3"})
+            if (run_program({program, "--version"}).exit_code != 0)
+                return "no " + std::string(program) + " here";
+        if (!fs::exists(*folder / "node_modules"))
+            fs::create_directory_symlink(modules, *folder / "node_modules");
+        return {};
+    }
     static Folder* folder;
     static std::string* first_event;
     static stimuli::BatchReport* report;
@@ -234,12 +245,7 @@ TEST_F(Experiment, ThatWasEditedStaysAndTheNewOneIsBesideIt) {
 }
 
 TEST_F(Experiment, OfJsPsychIsPlayedInABrowserToItsEnd) {
-    const fs::path modules = jspsych();
-    if (modules.empty()) GTEST_SKIP() << "no jsPsych here (tools/setup.sh test fetches it by npm)";
-    if (run_program({"chromium", "--version"}).exit_code != 0) GTEST_SKIP() << "no chromium here";
-    if (run_program({"python3", "--version"}).exit_code != 0) GTEST_SKIP() << "no python3 here";
-    if (!fs::exists(*folder / "node_modules"))
-        fs::create_directory_symlink(modules, *folder / "node_modules");
+    if (const std::string missing = missing_browser(); !missing.empty()) GTEST_SKIP() << missing;
     const report::ProgramResult played =
         run_program({"python3", (kStandIns / "play.py").string(), folder->path().string(),
                      "set/experiment/index.html", (*folder / "data.json").string(), "chromium"});
@@ -269,12 +275,7 @@ TEST_F(Experiment, OfJsPsychIsPlayedInABrowserToItsEnd) {
 
 // The answers of a participant must outlive a server that is gone: as a file, and in the browser until they are saved.
 TEST_F(Experiment, OfJsPsychKeepsItsAnswersWhenTheyCannotBeSaved) {
-    const fs::path modules = jspsych();
-    if (modules.empty()) GTEST_SKIP() << "no jsPsych here (tools/setup.sh test fetches it by npm)";
-    if (run_program({"chromium", "--version"}).exit_code != 0) GTEST_SKIP() << "no chromium here";
-    if (run_program({"python3", "--version"}).exit_code != 0) GTEST_SKIP() << "no python3 here";
-    if (!fs::exists(*folder / "node_modules"))
-        fs::create_directory_symlink(modules, *folder / "node_modules");
+    if (const std::string missing = missing_browser(); !missing.empty()) GTEST_SKIP() << missing;
     const report::ProgramResult played = run_program(
         {"python3", (kStandIns / "play.py").string(), folder->path().string(),
          "set/experiment/index.html", (*folder / "left.json").string(), "chromium", "--dead-save"});

@@ -43,6 +43,22 @@ TEST(TriggerCodes, AreThoseOfMomentsUnlessAskedFor) {
               "fear0\tclip_off\t4\t6\t0.6\tn/a\n");
 }
 
+TEST(TriggerCodes, HaveTheOnsetOfSoundInTheNearestFrame) {
+    const double fps = record("a", 2).at("fps");
+    Json heard = record("a", 2);
+    heard["audio"] = {{"onset_s", 1.4 / fps}};
+    const CodesOfClips codes;
+    EXPECT_NE(triggers({heard}, codes).find("a\tsound_onset\t5\t1\t"), std::string::npos)
+        << triggers({heard}, codes);
+    // One code for moments of one frame: the sound comes before the movement
+    heard["audio"]["onset_s"] = 2 / fps;
+    EXPECT_NE(triggers({heard}, codes)
+                  .find("a\tmovement_onset\t2\t2\t" + format_number(2 / fps) + "\tsound_onset\n"),
+              std::string::npos);
+    heard["audio"]["onset_s"] = Json();
+    EXPECT_EQ(triggers({heard}, codes).find("sound_onset"), std::string::npos) << "silence";
+}
+
 TEST(TriggerCodes, TellTheClipOrWhatIsNamed) {
     design::Design design;
     design.code_by = {"stim_id"};

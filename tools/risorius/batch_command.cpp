@@ -62,11 +62,20 @@ void print_plan(const BatchArguments& arguments) {
                              {"control", clip.condition.control.name()},
                              {"frames", clip.frames},
                              {"fps", clip.fps}});
+        Json samples = Json::array();
+        for (const auto& [set, sample] : plan.samples)
+            samples.push_back(
+                {{"set", set},
+                 {"trials", sample.trials},
+                 {"units", sample.units},
+                 {"times_of_a_unit", {{"least", sample.least}, {"most", sample.most}}},
+                 {"largest_correlation", sample.largest_correlation}});
         Json parts = Json::array();
         for (const auto& [set, balance] : plan.balances)
             parts.push_back(balance_json(set, balance));
         std::printf("%s\n", json_text(Json{{"name", plan.name},
                                            {"parts_of_crossings", parts},
+                                           {"samples", samples},
                                            {"clips", clips},
                                            {"notes", plan.notes},
                                            {"frames", frames},
@@ -78,6 +87,8 @@ void print_plan(const BatchArguments& arguments) {
         std::printf("%s: %zu clips, %ld frames, about %s on two cores and %.*f MB\n",
                     plan.name.c_str(), plan.clips.size(), frames, time_text(plan.seconds()).c_str(),
                     plan.megabytes() < 10 ? 1 : 0, plan.megabytes());
+        for (const auto& [set, sample] : plan.samples)
+            std::printf("%s: %s\n", set.c_str(), sample.text().c_str());
         for (const auto& [set, balance] : plan.balances)
             std::printf("%s: %s\n", set.c_str(), balance.text().c_str());
         for (const std::string& note : plan.notes) std::printf("  note: %s\n", note.c_str());
@@ -189,6 +200,10 @@ void add_batch(CLI::App& app) {
         "Replace files of the set that were changed since they were made. Without it, "
         "a changed clip is an error, and a changed program or table stays: the new "
         "one is put beside it as NAME.new");
+    command->add_option(
+        "--norms", options.norms,
+        "A table of ratings with participant, stimulus_id and answer, and scales such as valence: "
+        "hit rates, confusion and agreement become part of the set");
     command->add_option("--workers", options.workers, "Clips made at once")->capture_default_str();
     command->add_option(
         "--part", arguments->part,

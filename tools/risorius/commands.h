@@ -26,6 +26,7 @@ void add_shapes(CLI::App& app);
 void add_solve(CLI::App& app);
 void add_import(CLI::App& app);
 void add_batch(CLI::App& app);
+void add_reverse(CLI::App& app);
 void add_studio(CLI::App& app);
 
 /// Thrown for wrong input after the message has been printed.

@@ -145,6 +145,7 @@ int run(int argc, char** argv) {
     cli::add_solve(app);
     cli::add_import(app);
     cli::add_batch(app);
+    cli::add_reverse(app);
     cli::add_studio(app);
     cli::add_bench(app);
     cli::add_figure(app);

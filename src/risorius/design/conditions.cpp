@@ -59,8 +59,10 @@ std::string four_digits(const Json& value) {
     return format_number(std::round(number * unit) / unit);
 }
 
-/// The name of a clip. Each value is converted by clip_word(), so that signs and points become letters.
-std::string clip_name(const ConditionSet& set, const Parameters& values) {
+/// The words of a clip's name: text of the pattern, and values by `word_of`. Each is converted by clip_word(), so that signs and points
+/// become letters.
+std::string words_of_name(const ConditionSet& set,
+                          const std::function<std::string(const std::string& name)>& word_of) {
     std::string out;
     const std::string place = set.place + "/clip";
     for (std::size_t i = 0; i < set.clip.size();) {
@@ -74,12 +76,18 @@ std::string clip_name(const ConditionSet& set, const Parameters& values) {
         if (end == std::string::npos)
             throw Error(place, "${name of a parameter}", risorius::in_quotes(set.clip.substr(i)));
         const std::string name = set.clip.substr(i + 2, end - i - 2);
-        append_word(clip_word(is_drawn(set, name)
-                                  ? four_digits(values.at(name))
-                                  : values.filled_text(set.clip.substr(i, end + 1 - i), place)),
-                    out);
+        append_word(clip_word(word_of(name)), out);
         i = end + 1;
     }
+    return out;
+}
+
+std::string clip_name(const ConditionSet& set, const Parameters& values) {
+    const std::string place = set.place + "/clip";
+    const std::string out = words_of_name(set, [&](const std::string& name) {
+        return is_drawn(set, name) ? four_digits(values.at(name))
+                                   : values.filled_text("${" + name + "}", place);
+    });
     if (out.empty())
         throw Error(place, "a name with letters or digits", risorius::in_quotes(set.clip));
     if (out.size() > kMaxClipName)
@@ -127,9 +135,56 @@ class Names {
             throw Error(place, "a name that no other clip has; put what differs into \"clip\"",
                         risorius::in_quotes(clip) + ", as in " + other->second);
     }
+    bool has(const std::string& clip) const { return taken_.count(lower_case(clip)) > 0; }
 
   private:
     std::map<std::string, std::string> taken_;
+};
+
+/// The neutral faces of a set. The face of a head at rest, in one view and for one length, is one clip for all conditions.
+class Neutrals {
+  public:
+    /// Returns whether the face of this control is new. Otherwise the clip that shows it keeps only the values that both have.
+    bool add(const Condition& neutral, std::size_t at, std::vector<Condition>& all) {
+        const Json key = {neutral.script, neutral.folder.string(),
+                          neutral.audio ? neutral.audio->string() : "", neutral.audio_start_s};
+        const auto [like, is_new] = first_.emplace(json_text(key), at);
+        if (is_new) {
+            shared_[at] = false;
+            return true;
+        }
+        Condition& shared = all[like->second];
+        shared_[like->second] = true;
+        std::erase_if(shared.values, [&](const auto& value) {
+            return std::find(neutral.values.begin(), neutral.values.end(), value) ==
+                   neutral.values.end();
+        });
+        return false;
+    }
+    /// Names each clip that several conditions share by what they have in common, and claims the names of all.
+    void name(const ConditionSet& set, std::vector<Condition>& all, Names& names) const {
+        for (const auto& [at, is_shared] : shared_) {
+            Condition& neutral = all[at];
+            const auto word_of = [&](const std::string& name) -> std::string {
+                for (const auto& [known, value] : neutral.values)
+                    if (known == name) {
+                        if (value.is_string()) return value.get<std::string>();
+                        return is_drawn(set, name) ? four_digits(value) : json_text(value);
+                    }
+                return {};
+            };
+            if (is_shared) {
+                std::string common = words_of_name(set, word_of);
+                append_word(neutral.control.name(), common);
+                if (!names.has(common)) neutral.clip = common;
+            }
+            names.add(neutral.clip, set.place + ", control " + neutral.control.name());
+        }
+    }
+
+  private:
+    std::map<std::string, std::size_t> first_;  ///< what a face depends on, and its clip
+    std::map<std::size_t, bool> shared_;        ///< clip, and whether several conditions share it
 };
 
 /// The character of UTF-8 at `at`, which is not ASCII, in letters and digits of ASCII: the base letter of an accented Latin letter,
@@ -193,6 +248,7 @@ std::vector<Condition> conditions_of(const Design& design, const FindIntensity& 
     Names names;
     for (std::size_t s = 0; s < design.sets.size(); ++s) {
         const ConditionSet& set = design.sets[s];
+        Neutrals neutrals;
         for (const long index : wanted[s]) {
             std::vector<Given> given = design.parameters;
             given.push_back({"set", JsonCursor::from_json(set.name, set.place)});
@@ -215,7 +271,12 @@ std::vector<Condition> conditions_of(const Design& design, const FindIntensity& 
             condition.set = set.name;
             for (const std::string& name : values.names())
                 condition.values.emplace_back(name, values.at(name));
-            const Json script = values.filled(set.script);
+            Json script = values.filled(set.script);
+            if (set.sample) {
+                condition.units = set.trials[static_cast<std::size_t>(levels[0])].units;
+                script = with_units(std::move(script), condition.units, set.sample->length_s,
+                                    set.script.place());
+            }
             condition.script = script;
             condition.folder = set.script.folder();
             add_sound(set, values, condition);
@@ -229,6 +290,10 @@ std::vector<Condition> conditions_of(const Design& design, const FindIntensity& 
                 beside.control = control;
                 append_word(control.name(), beside.clip);
                 beside.script = controlled(script, control);
+                if (control.kind == ControlKind::kNeutral) {
+                    if (neutrals.add(beside, out.size(), out)) out.push_back(std::move(beside));
+                    continue;
+                }
                 // The seed depends only on the name, so that other conditions do not change it.
                 std::seed_seq seed(beside.clip.begin(), beside.clip.end());
                 std::array<unsigned, 1> drawn_seed{};
@@ -238,6 +303,7 @@ std::vector<Condition> conditions_of(const Design& design, const FindIntensity& 
                 out.push_back(std::move(beside));
             }
         }
+        neutrals.name(set, out, names);
     }
     return out;
 }

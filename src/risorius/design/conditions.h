@@ -33,6 +33,7 @@ struct Condition {
     unsigned seed = 0;                           ///< seed of the random numbers of the control
     std::optional<std::filesystem::path> audio;  ///< recording of the sound
     double audio_start_s = 0;                    ///< the time of its first sample
+    std::vector<UnitCourse> units;               ///< what "sample" has drawn, in the script
 };
 
 /// The factor of match/motion.

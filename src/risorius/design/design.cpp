@@ -12,7 +12,7 @@
 #include "risorius/core/existing_file.h"
 #include "risorius/core/known_names.h"
 #include "risorius/design/conditions.h"
-#include "risorius/design/detail/table.h"
+#include "risorius/design/table.h"
 
 namespace risorius::design {
 
@@ -46,6 +46,7 @@ double chance(int seed, const std::string& name, int index) {
 
 constexpr int kMaxLevels = 100000;
 constexpr double kBroadcastLufs = -23;  // EBU R 128
+constexpr int kMaxRounds = 50;
 
 Factor read_factor(const JsonCursor& json, const std::string& name, int seed) {
     Factor factor{.name = name, .levels = {}};
@@ -84,9 +85,22 @@ std::vector<std::vector<Given>> read_rows(const JsonCursor& json) {
     return rows;
 }
 
+/// Draws the trials of a set, and makes a row of conditions of each.
+void add_sample(const JsonCursor& json, const JsonCursor& of, int seed, ConditionSet& set) {
+    for (const char* key : {"conditions", "fraction", "draw"})
+        if (of.has(key)) of.at(key).fail("nothing beside \"sample\", which draws the conditions");
+    set.sample = read_sample(json);
+    CounterRng place(static_cast<std::uint64_t>(seed));
+    for (const char c : set.name) place.at(static_cast<unsigned char>(c));
+    set.trials = sampled_trials(*set.sample, static_cast<unsigned>(place.bits()));
+    set.rows.clear();
+    for (const Trial& trial : set.trials)
+        set.rows.push_back({{"trial", JsonCursor::from_json(trial.number, json.place())}});
+}
+
 ConditionSet read_set(const JsonCursor& json, int seed) {
     json.allow_keys({"name", "script", "parameters", "factors", "conditions", "fraction", "draw",
-                     "overrides", "clip", "controls", "audio", "audio_start_s"});
+                     "overrides", "clip", "controls", "audio", "audio_start_s", "sample"});
     const JsonCursor script = json.at("script");
     ConditionSet set{
         .name = json.at("name").string(),
@@ -126,6 +140,7 @@ ConditionSet read_set(const JsonCursor& json, int seed) {
             one.allow_keys({"when", "set"});
             set.overrides.push_back({read_values(one.at("when")), read_values(one.at("set"))});
         }
+    if (const auto v = json.find("sample")) add_sample(*v, json, seed, set);
     if (const auto v = json.find("controls"))
         for (const JsonCursor& one : v->items()) set.controls.push_back(read_control(one));
     return set;
@@ -159,7 +174,8 @@ ClipOptions read_clips(const JsonCursor& json) {
 
 LuminanceMatch read_luminance(const JsonCursor& json) {
     using OneFor = LuminanceMatch::OneFor;
-    json.allow_keys({"within", "one_for", "mean", "sd", "cut_limit", "allow_clipping"});
+    json.allow_keys({"within", "one_for", "mean", "sd", "cut_limit", "allow_clipping", "histogram",
+                     "spectrum", "rounds", "colour"});
     LuminanceMatch out;
     if (const auto v = json.find("within"))
         out.within_face = v->one_of({"picture", "face"}) == "face";
@@ -174,6 +190,13 @@ LuminanceMatch read_luminance(const JsonCursor& json) {
     if (const auto v = json.find("sd")) out.sd = v->number({0.001, 0.5});
     if (const auto v = json.find("cut_limit")) out.cut_limit = v->number({0, 1});
     if (const auto v = json.find("allow_clipping")) out.allow_clipping = v->boolean();
+    if (const auto v = json.find("histogram")) out.histogram = v->boolean();
+    if (const auto v = json.find("spectrum")) out.spectrum = v->one_of({"rotational"}) != "";
+    if (const auto v = json.find("rounds")) {
+        if (!out.spectrum) v->fail("\"spectrum\" beside it", "none");
+        out.rounds = v->integer(1, kMaxRounds);
+    }
+    if (const auto v = json.find("colour")) out.grey = v->one_of({"keep", "grey"}) == "grey";
     if (out.one_for == OneFor::kAll && !out.mean && !out.sd)
         json.fail(
             "\"mean\" or \"sd\" to match all clips to, or \"one_for\": \"identity\" or \"clip\"",

@@ -13,6 +13,7 @@
 #include "risorius/design/detail/controls.h"
 #include "risorius/design/detail/crossing.h"
 #include "risorius/design/detail/parameters.h"
+#include "risorius/design/sample.h"
 
 namespace risorius::design {
 
@@ -46,6 +47,9 @@ struct ConditionSet {
     std::vector<Control> controls;
     std::optional<JsonCursor> audio;          ///< a WAV or FLAC file; may contain ${names}
     std::optional<JsonCursor> audio_start_s;  ///< time of its first sample, or a formula
+    /// Random facial movements, and the trial of each row
+    std::optional<SampleOptions> sample = {};
+    std::vector<Trial> trials = {};
     std::string place;
 };
 
@@ -78,6 +82,11 @@ struct LuminanceMatch {
     /// Largest fraction of channel values that may be clipped at black and white in a clip
     double cut_limit = 0.005;
     bool allow_clipping = false;  ///< whether more is a note instead of an error
+    /// Whether all groups get the same histogram, and the same amplitude at each spatial frequency, in so many rounds
+    bool histogram = false, spectrum = false;
+    int rounds = 10;
+    bool grey = false;  ///< whether the face is shown without colour
+    bool has_maps() const { return histogram || spectrum; }
 };
 
 /// Makes steps of intensity equal as they are seen: adds the factor "seen_step", and sets a parameter by search.

@@ -17,8 +17,10 @@
 #include "risorius/design/conditions.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/stimuli/detail/experiment_files.h"
+#include "risorius/stimuli/detail/luminance_maps.h"
 #include "risorius/stimuli/detail/luminance_match.h"
 #include "risorius/stimuli/detail/motion_match.h"
+#include "risorius/stimuli/detail/norms.h"
 #include "risorius/stimuli/detail/own_files.h"
 #include "risorius/stimuli/detail/stimulus_set.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
@@ -91,6 +93,12 @@ void note_twins(BatchPlan& plan) {
 
 }  // namespace
 
+std::vector<std::string> clip_names(const BatchPlan& plan) {
+    std::vector<std::string> out;
+    for (const ClipPlan& clip : plan.clips) out.push_back(clip.condition.clip);
+    return out;
+}
+
 double BatchPlan::seconds() const {
     double sum = 0;
     const ClipPlan* before = nullptr;
@@ -117,6 +125,9 @@ BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped)
     plan.pulse_ms = design.pulse_ms;
     plan.dataset = design.dataset;
     for (const design::ConditionSet& set : design.sets)
+        if (set.sample)
+            plan.samples.emplace_back(set.name, design::balance_of(set.trials, *set.sample));
+    for (const design::ConditionSet& set : design.sets)
         if (!set.fraction.empty() || set.draw)
             plan.balances.emplace_back(set.name, design::balance_of(set, design.seed));
     plan.inputs = std::make_shared<animate::RenderInputs>(stopped);
@@ -136,6 +147,7 @@ BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped)
             plan_clip(condition, lead_s[condition.set], design, *plan.inputs, sounds));
     plan.codes = codes_of_clips(plan.clips, design);
     share_renders(plan.clips);
+    name_maps(plan);
     check_experiment(plan);
     note_twins(plan);
     return plan;
@@ -272,6 +284,7 @@ BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monit
     const report::Stopwatch time;
     BatchPlan plan = plan_batch(options.design, monitor.stopped);
     check_own_folder(options.out);
+    if (!options.norms.empty()) read_ratings(options.norms, clip_names(plan));
     BatchReport report;
     report.name = plan.name;
     BatchRun run(options, monitor, *plan.inputs, report);

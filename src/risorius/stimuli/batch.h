@@ -21,7 +21,9 @@ namespace risorius::stimuli {
 /// Options of make_batch().
 struct BatchOptions {
     std::filesystem::path design, out;
-    int workers = 2;       ///< number of clips that are made at the same time
+    int workers = 2;  ///< number of clips that are made at the same time
+    /// Ratings of the clips, see norms.h; empty: those that the set has already
+    std::filesystem::path norms = {};
     bool replace = false;  ///< whether files that were changed since they were made are replaced
     /// When several machines make the set: the number of the part of the clips that this one makes, from 1, and the number of
     /// parts
@@ -35,6 +37,8 @@ struct BatchOptions {
 /// A design that has been read and checked.
 struct BatchPlan {
     std::string name;
+    /// What was drawn at random for reverse correlation, by set
+    std::vector<std::pair<std::string, design::SampleBalance>> samples;
     design::Match match;
     std::optional<design::ExperimentOptions> experiment;
     double pulse_ms = 10;  ///< see design::Design
@@ -51,6 +55,9 @@ struct BatchPlan {
     double seconds() const;    ///< estimated time to make all clips on two cores
     double megabytes() const;  ///< estimated
 };
+
+/// Returns the names of the clips, in the order of the plan.
+std::vector<std::string> clip_names(const BatchPlan& plan);
 
 /// Reads the design, crosses its factors and checks every clip. Renders nothing. Throws Error for a wrong design.
 BatchPlan plan_batch(const std::filesystem::path& design,

@@ -164,6 +164,21 @@ std::string columns_text() {
            "\n";
 }
 
+long long milliseconds(double time_s) { return std::llround(1000 * time_s); }
+
+/// A line of an .ias file: an area from one key frame to the next. None where it is not visible.
+std::string ias_line(const Aoi& aoi, std::size_t number, long long start_ms, long long end_ms,
+                     bool still) {
+    if (aoi.polygon.empty() || end_ms <= start_ms) return {};
+    std::string out;
+    if (!still) out = "-" + std::to_string(start_ms) + " -" + std::to_string(end_ms - 1) + " ";
+    out += "FREEHAND " + std::to_string(number + 1);
+    for (const Vec2& corner : aoi.polygon)
+        out += " " + std::to_string(std::lround(corner.x())) + "," +
+               std::to_string(std::lround(corner.y()));
+    return out + " " + aoi.name + "\n";
+}
+
 }  // namespace
 
 std::vector<Aoi> aois_of(const animate::FrameRows& rows, int frame,
@@ -191,6 +206,31 @@ std::vector<Aoi> aois_of(const animate::FrameRows& rows, int frame,
     return out;
 }
 
+void draw_aois(const std::string& table, const ClipPlan& plan, report::HtmlWriter& html) {
+    html.open("svg", {{"viewBox", "0 0 " + std::to_string(kStripFrames * plan.width_px) + " " +
+                                      std::to_string(plan.height_px)},
+                      {"preserveAspectRatio", "none"},
+                      {"style", "position: absolute; left: 0; top: 0; width: 100%; height: 100%"}});
+    const animate::FrameRows rows = animate::frame_rows(table);
+    const int names = static_cast<int>(plan.clips.aois.size());
+    for (int i = 0; i < kStripFrames; ++i) {
+        const int frame = strip_frame(i, plan.frames);
+        for (int k = 0; k < names; ++k) {
+            const std::vector<std::string>& cells =
+                rows.cells[static_cast<std::size_t>(frame * names + k)];
+            if (cells[4] != "1") continue;
+            html.single("polygon",
+                        {{"points", cells[6]},
+                         {"transform", "translate(" + std::to_string(i * plan.width_px) + " 0)"},
+                         {"fill", "none"},
+                         {"stroke", kColours[static_cast<std::size_t>(k) % kColours.size()]},
+                         {"stroke-width", "1"},
+                         {"vector-effect", "non-scaling-stroke"}});
+        }
+    }
+    html.close();
+}
+
 AoiFiles aoi_files(const animate::FrameRows& source, const std::vector<int>& order,
                    const ClipPlan& plan) {
     const design::ControlKind kind = plan.condition.control.kind;
@@ -202,6 +242,8 @@ AoiFiles aoi_files(const animate::FrameRows& source, const std::vector<int>& ord
     out.columns = columns_text();
     Json aois = Json::array();
     std::vector<Aoi> keyed;
+    std::vector<double> keyed_s;
+    const double end_s = static_cast<double>(order.size()) / plan.fps;
     for (std::size_t t = 0; t < order.size(); ++t) {
         std::vector<Aoi> now =
             aois_of(rows, order[t], plan.clips.aois, face_px, plan.clips.aoi_margin * face_px,
@@ -227,13 +269,21 @@ AoiFiles aoi_files(const animate::FrameRows& source, const std::vector<int>& ord
                                 {"key_frames", Json::array()},
                                 {"tags", Json::array()}});
                 keyed.push_back({});
+                keyed_s.push_back(0);
             }
             if (t == 0 || has_moved(keyed[i], aoi)) {
+                if (t > 0)
+                    out.ias += ias_line(keyed[i], i, milliseconds(keyed_s[i]),
+                                        milliseconds(start_s), false);
+                keyed_s[i] = start_s;
                 aois[i]["key_frames"].push_back(key_frame(aoi, std::llround(1e6 * start_s)));
                 keyed[i] = aoi;
             }
         }
     }
+    for (std::size_t i = 0; i < keyed.size(); ++i)
+        out.ias += ias_line(keyed[i], i, milliseconds(keyed_s[i]), milliseconds(end_s),
+                            aois[i]["key_frames"].size() == 1);
     out.key_frames = json_text(Json{{"operation", "AddAois"},
                                     {"media_id", "stim-" + plan.condition.clip},
                                     {"merge_mode", "replace_aois"},

@@ -15,6 +15,7 @@
 #include "risorius/animate/frame_rows.h"
 #include "risorius/core/json_cursor.h"
 #include "risorius/core/types.h"
+#include "risorius/report/html_writer.h"
 #include "risorius/stimuli/detail/clip.h"
 
 namespace risorius::stimuli {
@@ -39,7 +40,13 @@ struct AoiFiles {
     /// Key frames in the form of the request AddAois of the project interface of Tobii Pro Lab, JSON. A key frame is left out where no
     /// corner has moved by more than half a pixel.
     std::string key_frames;
+    /// The same key frames as areas of SR Research Data Viewer: "-start -end FREEHAND id x,y x,y ... name" with times in ms after the
+    /// message that loads the file; without times where the clip is still.
+    std::string ias;
 };
+
+/// Draws the areas over the five frames of a strip. `table`: AoiFiles::table.
+void draw_aois(const std::string& table, const ClipPlan& plan, report::HtmlWriter& html);
 
 /// Returns the areas of the clip as shown. `rows`: the frames of the script; `order`: for each frame of the clip, its row.
 AoiFiles aoi_files(const animate::FrameRows& rows, const std::vector<int>& order,

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/json_text.h"
+#include "risorius/stimuli/detail/methods.h"
 
 namespace risorius::stimuli {
 
@@ -124,6 +125,41 @@ void add_motion(const std::vector<Json>& records, std::vector<Column>& columns) 
          measure("commanded_apex_s")});
 }
 
+/// The columns of norms.
+void add_norms(const BatchPlan& plan, const Norms& norms, std::vector<Column>& columns) {
+    const auto of_clip = [&](std::function<Json(const Norms::OfClip&)> cell) {
+        return [&plan, &norms, cell = std::move(cell)](std::size_t i) {
+            const auto clip = norms.clips.find(plan.clips[i].condition.clip);
+            return clip == norms.clips.end() ? Json() : cell(clip->second);
+        };
+    };
+    const auto share = [&](double (Share::*value)() const) {
+        return of_clip([value](const Norms::OfClip& clip) {
+            return clip.hits.count > 0 ? rounded((clip.hits.*value)()) : Json();
+        });
+    };
+    columns.push_back({"norm_ratings", described("Answers of raters"),
+                       of_clip([](const Norms::OfClip& clip) { return Json(clip.ratings); })});
+    columns.push_back({"norm_answer", described("The most frequent of them"),
+                       of_clip([](const Norms::OfClip& clip) { return Json(clip.answer); })});
+    columns.push_back({"norm_hit_rate", described("Share of right answers"), share(&Share::value)});
+    columns.push_back({"norm_hit_low", described("Lower end of its interval of 95 % (Wilson)"),
+                       share(&Share::low)});
+    columns.push_back({"norm_hit_high", described("Upper end of its interval of 95 % (Wilson)"),
+                       share(&Share::high)});
+    for (const std::string& scale : rating_scales()) {
+        const bool any = std::any_of(norms.clips.begin(), norms.clips.end(), [&](const auto& clip) {
+            return clip.second.means.count(scale) > 0;
+        });
+        if (any)
+            columns.push_back({"norm_" + scale, described("Mean rating"),
+                               of_clip([scale](const Norms::OfClip& clip) {
+                                   const auto mean = clip.means.find(scale);
+                                   return mean == clip.means.end() ? Json() : rounded(mean->second);
+                               })});
+    }
+}
+
 std::vector<Column> columns_of(const BatchPlan& plan, const std::vector<Json>& records) {
     const std::vector<ClipPlan>& clips = plan.clips;
     const auto of_record = [&](const char* key) {
@@ -159,6 +195,8 @@ std::vector<Column> columns_of(const BatchPlan& plan, const std::vector<Json>& r
              const std::string control = records[i].at("control").get<std::string>();
              return Json(text + (control.empty() ? "" : ", control " + control));
          }},
+        {"HED", described("What it shows, in tags of HED 8.4.0"),
+         [&clips](std::size_t i) { return Json(hed_tags(clips[i])); }},
         {"present", described("Whether the file is in this data set"), same("true")},
         {"set", described("Set of conditions of the design"), of_record("set")},
         {"control", described("What differs from the clip it is a control of"),
@@ -182,6 +220,10 @@ std::vector<Column> columns_of(const BatchPlan& plan, const std::vector<Json>& r
         };
     };
     if (has_sound(clips)) {
+        out.push_back(
+            {"sound_onset_s",
+             described("First millisecond of the recording above a hundredth of its peak", "s"),
+             of_sound("onset_s")});
         out.push_back({"loudness_lufs",
                        described("Integrated loudness of the whole recording by EBU R 128", "LUFS"),
                        of_sound("loudness_lufs")});
@@ -210,9 +252,11 @@ std::string catalogue_cell(const Json& value) {
     return text.empty() ? kMissingCell : text;
 }
 
-Catalogue catalogue_of(const BatchPlan& plan, const std::vector<Json>& records) {
+Catalogue catalogue_of(const BatchPlan& plan, const std::vector<Json>& records,
+                       const std::optional<Norms>& norms) {
     Catalogue out{.table = {}, .columns = Json::object()};
-    const std::vector<Column> columns = columns_of(plan, records);
+    std::vector<Column> columns = columns_of(plan, records);
+    if (norms) add_norms(plan, *norms, columns);
     for (const Column& column : columns) {
         out.table += (out.table.empty() ? "" : "\t") + column.name;
         out.columns[column.name] = column.description;
@@ -223,6 +267,38 @@ Catalogue catalogue_of(const BatchPlan& plan, const std::vector<Json>& records) 
             out.table += (&column == &columns.front() ? "" : "\t") + catalogue_cell(column.cell(i));
         out.table += "\n";
     }
+    return out;
+}
+
+Catalogue sample_of(const BatchPlan& plan, const std::vector<Json>& records) {
+    Catalogue out{.table = "trial\tstimulus_id\tunit", .columns = Json::object()};
+    for (const std::string& name : design::course_parameters()) out.table += "\t" + name;
+    out.table += "\tseen_mm\n";
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const ClipPlan& clip = plan.clips[i];
+        if (clip.is_control()) continue;
+        for (const design::UnitCourse& unit : clip.condition.units) {
+            out.table += catalogue_cell(records[i].at("values").at("trial")) + "\tstim-" +
+                         clip.condition.clip + "\t" + unit.unit;
+            for (std::size_t k = 0; k < design::course_parameters().size(); ++k)
+                out.table += "\t" + format_number(design::parameter(unit, k));
+            const Json& seen = records[i].at("motion").at("seen_mm");
+            out.table += "\t" + catalogue_cell(seen.is_null() ? seen : rounded(seen)) + "\n";
+        }
+    }
+    out.columns = {
+        {"trial", described("Number of the trial; heads and other factors show the same ones")},
+        {"stimulus_id", described("The clip, as in stimuli/stimuli.tsv")},
+        {"unit", described("An action unit that moves in it, of one side with .l or .r")},
+        {"amplitude", described("Its intensity at the peak, 0 to 1")},
+        {"onset_latency_s", described("When it begins", "s")},
+        {"peak_latency_s", described("When it is at its peak", "s")},
+        {"offset_latency_s", described("When it is back at rest, or the clip ends", "s")},
+        {"acceleration", described("Exponent p of the rise: its largest speed is amplitude p / "
+                                   "(peak_latency_s - onset_latency_s)")},
+        {"deceleration", described("The same of the fall")},
+        {"seen_mm",
+         described("Farthest way of a landmark in the clip, of all units together", "mm")}};
     return out;
 }
 

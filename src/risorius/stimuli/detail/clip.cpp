@@ -73,14 +73,16 @@ void show_matched(const UnmatchedRender& render, const ProgressMonitor& monitor,
 Json matched_luminance(const ClipPlan& plan, const UnmatchedRender& render,
                        const ClipPictures& pictures) {
     const media::Tone tone = plan.tone.value_or(media::Tone{});
-    return {{"film_sha256", plan.render_sha256},
-            {"within", plan.luminance->within_face ? "face" : "picture"},
-            {"gain", tone.gain},
-            {"offset", tone.offset},
-            {"before", json_of(render.luminance)},
-            {"colours", render.colours},
-            {"after", json_of(pictures.luminance())},
-            {"cut_off", pictures.cut_off()}};
+    Json out{{"film_sha256", plan.render_sha256},
+             {"within", plan.luminance->within_face ? "face" : "picture"},
+             {"gain", plan.mapped ? Json() : Json(tone.gain)},
+             {"offset", plan.mapped ? Json() : Json(tone.offset)},
+             {"before", json_of(render.luminance)},
+             {"colours", render.colours},
+             {"after", json_of(pictures.luminance())},
+             {"cut_off", pictures.cut_off()}};
+    if (plan.mapped) out.update(pictures.map_report());
+    return out;
 }
 
 }  // namespace
@@ -114,7 +116,7 @@ double SettledMotions::at(const std::string& key, const std::function<double()>&
 std::vector<fs::path> ClipFiles::listed() const {
     std::vector<fs::path> files{script, strip, video, events, columns};
     if (!sound.empty()) files.push_back(sound);
-    if (!aois.empty()) files.insert(files.end(), {aois, aoi_columns, aoi_key_frames});
+    if (!aois.empty()) files.insert(files.end(), {aois, aoi_columns, aoi_key_frames, aoi_ias});
     return files;
 }
 
@@ -131,6 +133,7 @@ ClipFiles clip_files(const ClipPlan& plan) {
             only(stem(plan) + "_annot-aois_events.tsv"),
             only(stem(plan) + "_annot-aois_events.json"),
             only("aois/" + plan.condition.clip + "_tobii.json"),
+            only("aois/" + plan.condition.clip + ".ias"),
             stem(plan) + suffix(plan) + ".json"};
 }
 
@@ -212,6 +215,8 @@ void find_commanded(const track::ScriptDescription& script, double lead_s, Shown
 
 /// SeenMotion::full_mm of a clip.
 std::optional<double> full_motion_mm(const ClipPlan& plan, const ClipWorker& worker) {
+    // Random movements have no full intensity.
+    if (!plan.condition.units.empty()) return {};
     const std::optional<Json> script = expression_at_full_intensity(plan.condition.script);
     if (!script) return {};
     ClipPlan full = plan;
@@ -300,6 +305,7 @@ Json sidecar_of(const ClipPlan& plan, ShownClip shown, ClipPictures& pictures) {
                            {"sha256", plan.sound->sha256},
                            {"offset_samples", plan.sound->offset_samples},
                            {"gain_db", plan.sound->gain_db},
+                           {"onset_s", or_null(plan.sound->onset_s)},
                            {"loudness_lufs", finite_or_null(plan.sound->loudness.integrated_lufs)},
                            {"true_peak_dbtp", finite_or_null(plan.sound->loudness.true_peak_dbtp)}};
     if (!shown.luminance.is_null()) record["luminance"] = std::move(shown.luminance);
@@ -347,6 +353,7 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
         write_file(written[files.aois], aois.table);
         write_file(written[files.aoi_columns], aois.columns);
         write_file(written[files.aoi_key_frames], aois.key_frames);
+        write_file(written[files.aoi_ias], aois.ias);
     }
     if (plan.sound)
         media::write_wav(heard_of(*plan.sound, static_cast<double>(plan.frames) / plan.fps),
@@ -357,7 +364,7 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
     write_file(sidecar, json_text(record, 2) + "\n");
     worker.monitor.throw_if_stopped();
     outputs.commit();
-    if (unmatched && !plan.render_is_shared) remove_unmatched_render(plan, folder);
+    if (unmatched && !plan.render_is_shared && !plan.mapped) remove_unmatched_render(plan, folder);
 }
 
 }  // namespace risorius::stimuli

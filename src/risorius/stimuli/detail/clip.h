@@ -8,7 +8,7 @@
 ///                                                columns of frame_table.h
 ///   stimuli/stim-NAME_annot-frames_events.json   what each column of that table is
 ///   stimuli/stim-NAME_video.json                 the sidecar: how the clip was made; it exists only when the clip is complete
-///   stimuli/stim-NAME_annot-aois_events.tsv      areas of interest, with their .json and aois/NAME_tobii.json; see aois.h
+///   stimuli/stim-NAME_annot-aois_events.tsv      areas of interest, with their .json, aois/NAME_tobii.json and aois/NAME.ias; see aois.h
 ///   overview/NAME.png                            five of its frames side by side
 ///   code/scripts/NAME.json                       the script as it was played; it is written for the reader, not read back
 #pragma once
@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -29,10 +30,18 @@
 #include "risorius/core/json_cursor.h"
 #include "risorius/design/conditions.h"
 #include "risorius/design/design.h"
+#include "risorius/media/luminance_map.h"
 #include "risorius/media/tone.h"
 #include "risorius/stimuli/detail/clip_sound.h"
 
 namespace risorius::stimuli {
+
+/// What a clip gets when histograms or spectra are matched, and what that aims at.
+struct MappedLuminance {
+    media::LuminanceMap map;
+    std::vector<double> target;      ///< quantile function of luminance
+    std::vector<double> amplitudes;  ///< by cycles per picture; empty: only the histogram
+};
 
 /// A clip that has been planned and checked, but not made.
 struct ClipPlan {
@@ -44,6 +53,8 @@ struct ClipPlan {
     std::optional<design::LuminanceMatch> luminance;
     /// Map of luminance; it is set when the renders of all conditions have been measured
     std::optional<media::Tone> tone;
+    /// In place of the tone when histograms or spectra are matched
+    std::shared_ptr<const MappedLuminance> mapped;
     std::optional<ClipSound> sound;
     int frames = 0, fps = 0, width_px = 0, height_px = 0;
     /// Frames at the beginning that show the first one, because a recording of the set begins before the script; part of `frames`
@@ -77,8 +88,9 @@ bool is_made(const ClipPlan& plan, const std::filesystem::path& folder);
 /// The paths of a clip's files below the folder of the set.
 struct ClipFiles {
     std::filesystem::path script, strip, video, events, columns;
-    std::filesystem::path sound;                              ///< empty when there is none
-    std::filesystem::path aois, aoi_columns, aoi_key_frames;  ///< empty when none are asked for
+    std::filesystem::path sound;  ///< empty when there is none
+    std::filesystem::path aois, aoi_columns, aoi_key_frames,
+        aoi_ias;                    ///< empty when none are asked for
     std::filesystem::path sidecar;  ///< written last: a clip that has it is complete
     /// All files but the sidecar, which lists them.
     std::vector<std::filesystem::path> listed() const;

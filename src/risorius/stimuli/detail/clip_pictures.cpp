@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_cursor.h"
@@ -19,7 +20,7 @@ using design::ControlKind;
 
 namespace {
 
-constexpr int kStrip = 5, kThumb_px = 120;
+constexpr int kThumb_px = 120;
 constexpr int kPhotodiode_px = 64;
 constexpr unsigned kNextFrame = 0x9E3779B9;
 constexpr double kLeastPxPerCycle = 4;  // an octave below half the sampling rate
@@ -90,6 +91,8 @@ bool is_of_landmark(const std::string& column) {
 
 }  // namespace
 
+int strip_frame(int index, int frames) { return (2 * index + 1) * frames / (2 * kStripFrames); }
+
 double width_of_face(const animate::FrameRows& rows, const std::string& place) {
     const int left = rows.column("zy_l.u_px"), right = rows.column("zy_r.u_px");
     if (left < 0 || right < 0)
@@ -140,7 +143,8 @@ ClipPictures::ClipPictures(const ClipPlan& plan, media::VideoWriter& video)
       kind_(plan.condition.control.kind),
       video_(video),
       later_(needs_all_frames(plan)),
-      measured_(plan.tone || plan.lead_frames > 0 || plan.condition.control.shows_otherwise()),
+      measured_(plan.tone || plan.mapped || plan.lead_frames > 0 ||
+                plan.condition.control.shows_otherwise()),
       layered_(has_layers(plan)) {
     if (plan.tone) tone_.emplace(*plan.tone);
     if (kind_ == design::ControlKind::kPhaseScrambled)
@@ -162,10 +166,9 @@ void ClipPictures::finish(const std::vector<int>& order) {
 
 Image ClipPictures::strip() const {
     const Image& first = thumbs_.front();
-    Image out(kStrip * first.width_px, first.height_px);
-    for (int i = 0; i < kStrip; ++i) {
-        const std::size_t at =
-            (2 * static_cast<std::size_t>(i) + 1) * thumbs_.size() / (2 * kStrip);
+    Image out(kStripFrames * first.width_px, first.height_px);
+    for (int i = 0; i < kStripFrames; ++i) {
+        const auto at = static_cast<std::size_t>(strip_frame(i, static_cast<int>(thumbs_.size())));
         for (int y = 0; y < first.height_px; ++y)
             std::copy_n(thumbs_[at].pixel(0, y), 4 * first.width_px,
                         out.pixel(i * first.width_px, y));
@@ -263,12 +266,31 @@ void ClipPictures::change_oval(const std::vector<float>& oval, int frame, Image&
     }
 }
 
+/// What is done before the picture is put over its background: the map, and grey.
+void ClipPictures::match(const std::vector<float>& measured, Image& image) {
+    if (plan_.mapped) {
+        media::LuminancePlane plane = media::luminance_plane(image, measured);
+        if (!map_report_)
+            map_report_.emplace(
+                plan_.mapped.get(),
+                plan_.luminance->spectrum ? width_of_face(*rows_, plan_.condition.clip) : 1);
+        map_report_->add_before(plane);
+        plan_.mapped->map.apply(plane);
+        media::set_luminance(plane.y, plan_.luminance->grey, image);
+        return;
+    }
+    if (tone_) cut_off_ += tone_->cut_off(image, measured);
+    if (plan_.luminance->grey) media::make_grey(image);
+}
+
+Json ClipPictures::map_report() const { return map_report_->json(); }
+
 void ClipPictures::write(Image image, int frame) {
     std::vector<float> measured, oval;
     if (plan_.luminance) measured = measured_weights(plan_, *rows_, frame, image);
     if (plan_.condition.control.changes_the_oval())
         oval = weights_in_oval(plan_, *rows_, frame, image);
-    if (tone_) cut_off_ += tone_->cut_off(image, measured);
+    if (plan_.luminance) match(measured, image);
     if (layered_) {
         const media::ToneCurve curve = tone_.value_or(media::ToneCurve(media::Tone{}));
         if (plan_.transparent)
@@ -279,6 +301,7 @@ void ClipPictures::write(Image image, int frame) {
     if (!oval.empty()) change_oval(oval, frame, image);
     if (window_) window_->show(plan_.background, image);
     if (plan_.luminance) luminance_.add(image, measured);
+    if (map_report_) map_report_->add_shown(media::luminance_plane(image, measured));
     if (kind_ == ControlKind::kUpsideDown) turn_upside_down(image);
     if (kind_ == ControlKind::kMirrored) mirror(image);
     look_for_change(image);

@@ -15,6 +15,7 @@
 #include "risorius/media/tone.h"
 #include "risorius/media/video_writer.h"
 #include "risorius/stimuli/detail/clip.h"
+#include "risorius/stimuli/detail/luminance_maps.h"
 #include "risorius/stimuli/detail/point_lights.h"
 
 namespace risorius::stimuli {
@@ -28,6 +29,10 @@ bool shows_one_picture(design::ControlKind kind);
 
 /// Returns whether all frames are needed before the first one is written.
 bool needs_all_frames(const ClipPlan& plan);
+
+/// The frames of a clip that its strip shows.
+inline constexpr int kStripFrames = 5;
+int strip_frame(int index, int frames);
 
 /// Returns the distance of the landmarks zy_l and zy_r in the first frame, px. Throws Error naming `place` when there are none.
 double width_of_face(const animate::FrameRows& rows, const std::string& place);
@@ -56,6 +61,8 @@ class ClipPictures {
     /// Returns the luminance of the pictures as shown, within the part that is matched; and the fraction of values that were clipped,
     /// mean over frames. Of matched clips only.
     const media::LuminanceSums& luminance() const { return luminance_; }
+    /// Of clips with a map: how near its pictures come to what the map aims at.
+    Json map_report() const;
     double cut_off() const { return written_ > 0 ? cut_off_ / written_ : 0; }
 
     /// Returns five frames, spread over the clip, side by side.
@@ -73,6 +80,7 @@ class ClipPictures {
     void write(Image image, int frame);
     void change_oval(const std::vector<float>& oval, int frame, Image& image);
     void look_for_change(const Image& image);
+    void match(const std::vector<float>& measured, Image& image);
 
     void pass(const std::vector<float>& oval, Image& image);
     void draw_mask(const std::vector<float>& oval, Image& image);
@@ -87,6 +95,7 @@ class ClipPictures {
     std::optional<PointLights> dots_;
     media::Mondrian mask_;
     media::LuminanceSums luminance_;
+    std::optional<MapReport> map_report_;
     double cut_off_ = 0;
     int added_ = 0;
     std::optional<media::PhaseScrambler> phases_;

@@ -151,7 +151,7 @@ std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256
 }
 
 /// Changes when clips are made or measured in another way, so that older ones are made anew.
-constexpr int kWayOfMaking = 2;
+constexpr int kWayOfMaking = 3;
 
 Json or_none(const std::optional<int>& value) { return value ? Json(*value) : Json(); }
 
@@ -173,6 +173,7 @@ std::string content_sha256_of(const ClipPlan& plan) {
     if (const Json unnamed = condition.control.unnamed(); !unnamed.is_null())
         content["control_keys"] = unnamed;
     if (plan.has_aois()) content["aois"] = {{"names", clips.aois}, {"margin", clips.aoi_margin}};
+    if (plan.luminance && plan.luminance->grey) content["grey"] = true;
     if (plan.lead_frames > 0) content["lead_frames"] = plan.lead_frames;
     if (plan.sound)
         content["sound"] = {{"file", plan.sound->sha256},

@@ -14,6 +14,27 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kMaxPeak_dbtp = -1;  // EBU R 128
+constexpr double kAudible = 0.01, kWindow_s = 0.001;
+
+/// The first sample of the first millisecond that is louder than a hundredth of the peak; none in silence.
+std::optional<std::int64_t> first_audible(const media::Recording& recording) {
+    const media::Sound all =
+        media::part_of(recording, 0, static_cast<std::int64_t>(recording.length()));
+    const std::size_t window = std::max<std::size_t>(
+        1, static_cast<std::size_t>(std::llround(kWindow_s * recording.rate_hz)));
+    const auto level = [&](std::size_t from) {
+        float most = 0;
+        for (std::size_t i = from; i < std::min(all.samples.size(), from + window); ++i)
+            most = std::max(most, std::abs(all.samples[i]));
+        return most;
+    };
+    float peak = 0;
+    for (const float sample : all.samples) peak = std::max(peak, std::abs(sample));
+    if (!(peak > 0)) return {};
+    for (std::size_t from = 0; from < all.samples.size(); from += window)
+        if (level(from) > kAudible * peak) return static_cast<std::int64_t>(from);
+    return {};
+}
 
 }  // namespace
 
@@ -33,6 +54,8 @@ ClipSound SoundPlans::at(const design::Condition& condition, double duration_s,
         throw Error(place, "an audio_start_s with which the clip contains some of the recording",
                     format_number(condition.audio_start_s));
     out.offset_samples = std::llround(condition.audio_start_s * recording.rate_hz);
+    if (const auto first = first_audible(recording))
+        out.onset_s = static_cast<double>(out.offset_samples + *first) / recording.rate_hz;
     // Of the whole recording, so that the gain does not depend on when it is heard
     out.loudness = media::loudness_of(recording, 0, static_cast<std::int64_t>(recording.length()));
     if (lufs) {

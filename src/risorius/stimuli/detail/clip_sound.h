@@ -22,6 +22,8 @@ struct ClipSound {
     /// Number of samples from the first frame to the first sample, at the rate of the recording
     std::int64_t offset_samples = 0;
     double gain_db = 0;
+    /// From the first frame: the first millisecond above a hundredth (-40 dB) of the peak of the recording
+    std::optional<double> onset_s;
     media::Loudness loudness;  ///< after the gain
 };
 

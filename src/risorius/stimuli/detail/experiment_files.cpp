@@ -160,6 +160,17 @@ void check_experiment(BatchPlan& plan) {
                              without.front() + (without.size() > 1 ? " the first" : ""));
 }
 
+std::map<std::string, std::string> right_answers(const BatchPlan& plan) {
+    std::map<std::string, std::string> out;
+    if (!plan.experiment) return out;
+    for (const ClipPlan& clip : plan.clips) {
+        const std::string right = correct_key(*plan.experiment, clip.condition);
+        for (const auto& [key, answer] : plan.experiment->answers)
+            if (key == right) out[clip.condition.clip] = answer;
+    }
+    return out;
+}
+
 void write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
                       const WriteFile& write_below) {
     const design::ExperimentOptions& experiment = *plan.experiment;

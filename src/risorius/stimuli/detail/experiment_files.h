@@ -9,6 +9,8 @@
 ///   experiment/index.html        for jsPsych, in a browser
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
@@ -23,5 +25,8 @@ void check_experiment(BatchPlan& plan);
 /// Writes the files. All clips must exist.
 void write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
                       const WriteFile& write_below);
+
+/// The right answer of each clip that has one, in the words of the experiment.
+std::map<std::string, std::string> right_answers(const BatchPlan& plan);
 
 }  // namespace risorius::stimuli

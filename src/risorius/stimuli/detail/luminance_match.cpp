@@ -9,6 +9,8 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
+#include "risorius/stimuli/detail/catalogue.h"
+#include "risorius/stimuli/detail/luminance_maps.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
 
 namespace risorius::stimuli {
@@ -73,9 +75,14 @@ plot::Chart chart_of(const char* name, const char* label, const std::vector<Json
 
 std::vector<std::size_t> unmeasured(const BatchPlan& plan, const fs::path& folder) {
     std::vector<std::size_t> out;
+    const bool maps = plan.match.luminance && plan.match.luminance->has_maps();
+    if (maps && all_made(plan, folder)) return out;
+    const auto is_measured = [&](const ClipPlan& clip) {
+        return maps ? find_unmatched_render(clip, folder).has_value()
+                    : measured_luminance(clip, folder).has_value();
+    };
     for (std::size_t i = 0; i < plan.clips.size(); ++i)
-        if (plan.clips[i].luminance && !plan.clips[i].is_control() &&
-            !measured_luminance(plan.clips[i], folder))
+        if (plan.clips[i].luminance && !plan.clips[i].is_control() && !is_measured(plan.clips[i]))
             out.push_back(i);
     return out;
 }
@@ -141,31 +148,27 @@ void check_cut(const design::LuminanceMatch& match, const std::map<std::string, 
     notes.push_back("match/luminance: " + found);
 }
 
-/// The group of a clip. A neutral face is the same in all conditions of a head, and so is its brightness.
-std::string group_of(const ClipPlan& clip, OneFor one_for) {
-    if (one_for == OneFor::kAll) return "";
-    const bool neutral = clip.condition.control.kind == design::ControlKind::kNeutral;
-    return one_for == OneFor::kIdentity || neutral ? clip.scene_sha256
-                                                   : "clip " + clip.condition.of;
-}
-
 }  // namespace
 
 void match_luminance(const fs::path& folder, BatchPlan& plan) {
     if (!plan.match.luminance) return;
+    if (plan.match.luminance->has_maps()) {
+        if (!all_made(plan, folder)) fit_maps(folder, plan);
+        return;
+    }
     const design::LuminanceMatch& match = *plan.match.luminance;
     media::LuminanceSums all;
     std::map<std::string, Group> groups;
     for (const ClipPlan& clip : plan.clips) {
         if (clip.is_control()) {
             // A neutral face has the map of its head also when each condition has its own.
-            groups[group_of(clip, match.one_for)];
+            groups[map_group(clip, match.one_for)];
             continue;
         }
         const auto measured = measured_luminance(clip, folder);
         if (!measured) throw RunError(clip.condition.clip + ": its measured luminance is missing");
         all.add(measured->sums);
-        Group& group = groups[group_of(clip, match.one_for)];
+        Group& group = groups[map_group(clip, match.one_for)];
         group.colours.add(measured->colours);
         group.clips.emplace_back(clip.condition.clip, measured->colours);
     }
@@ -174,12 +177,13 @@ void match_luminance(const fs::path& folder, BatchPlan& plan) {
             if (const auto neutral = groups.find(clip.scene_sha256);
                 !clip.is_control() && neutral != groups.end())
                 neutral->second.colours.add(
-                    groups.at(group_of(clip, match.one_for)).clips.front().second);
+                    groups.at(map_group(clip, match.one_for)).clips.front().second);
     if (!(all.sd() > 0)) throw RunError("the pictures have no contrast that could be matched");
     const double mean = match.mean.value_or(all.mean()), sd = match.sd.value_or(all.sd());
     for (auto& [name, group] : groups) group.fit = media::fitted_tone(group.colours, mean, sd);
     check_cut(match, groups, mean, sd, plan.notes);
-    for (ClipPlan& clip : plan.clips) clip.match(groups.at(group_of(clip, match.one_for)).fit.tone);
+    for (ClipPlan& clip : plan.clips)
+        clip.match(groups.at(map_group(clip, match.one_for)).fit.tone);
 }
 
 std::vector<plot::Chart> write_luminance_report(const BatchPlan& plan,
@@ -189,7 +193,8 @@ std::vector<plot::Chart> write_luminance_report(const BatchPlan& plan,
     const fs::path below = kLuminanceFolder;
     std::string table =
         "stim_id\tset\tcontrol\tmean_before\tsd_before\tmean_after\tsd_after\tgain\toffset\t"
-        "cut_off\n";
+        "cut_off";
+    table += match.has_maps() ? "\thistogram_error\n" : "\n";
     for (const Json& record : records) {
         const media::LuminanceSums before = before_of(record), after = after_of(record);
         const std::string control = record.at("control").get<std::string>();
@@ -198,7 +203,9 @@ std::vector<plot::Chart> write_luminance_report(const BatchPlan& plan,
         for (const double value : {before.mean(), before.sd(), after.mean(), after.sd()})
             table += "\t" + four_digits(value);
         for (const char* key : {"gain", "offset", "cut_off"})
-            table += "\t" + format_number(record.at("luminance").at(key).get<double>());
+            table += "\t" + catalogue_cell(record.at("luminance").at(key));
+        if (match.has_maps())
+            table += "\t" + four_digits(record.at("luminance").at("histogram_error").get<double>());
         table += "\n";
     }
     const Together of = together(records);
@@ -217,6 +224,7 @@ std::vector<plot::Chart> write_luminance_report(const BatchPlan& plan,
                     {"after", described(of.after)},
                     {"greatest_cut_off", of.cut_off}};
     write(below / "luminance.tsv", table);
+    if (match.spectrum) write(below / "spectrum.tsv", spectrum_table(records));
     write(below / "luminance.json", json_text(json, 2) + "\n");
     return {chart_of("mean", "mean of luminance", records, &media::LuminanceSums::mean),
             chart_of("sd", "standard deviation of luminance", records, &media::LuminanceSums::sd)};

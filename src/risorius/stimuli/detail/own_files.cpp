@@ -27,16 +27,20 @@ constexpr FileKind kShellScript{"a script of the shell", kMegabyte};
 /// The files of a set beside those of its clips, see stimulus_set.h and experiment_files.h.
 constexpr std::array kFilesOfSet{"dataset_description.json",
                                  "README",
+                                 "methods.md",
                                  ".bidsignore",
                                  "stimuli/annotations.tsv",
                                  "stimuli/stimuli.tsv",
                                  "stimuli/stimuli.json",
                                  "triggers.tsv",
                                  "codes.tsv",
+                                 "sample.tsv",
+                                 "sample.json",
                                  "code/design.json",
                                  "index.html",
                                  "luminance/luminance.tsv",
                                  "luminance/luminance.json",
+                                 "luminance/spectrum.tsv",
                                  "luminance/mean.svg",
                                  "luminance/mean.png",
                                  "luminance/mean.gp",
@@ -45,6 +49,9 @@ constexpr std::array kFilesOfSet{"dataset_description.json",
                                  "luminance/sd.png",
                                  "luminance/sd.gp",
                                  "luminance/sd.data.csv",
+                                 "norms/ratings.csv",
+                                 "norms/norms.json",
+                                 "norms/confusion.tsv",
                                  "experiment/conditions.csv",
                                  "experiment/settings.json",
                                  "experiment/experiment.py",
@@ -106,7 +113,7 @@ std::string clip_of(const Json& record, const std::string& file_name) {
 bool belongs_to(const std::string& clip, const std::string& file) {
     const std::string stem = "stimuli/stim-" + clip + "_";
     return file == "overview/" + clip + ".png" || file == "code/scripts/" + clip + ".json" ||
-           file == "aois/" + clip + "_tobii.json" ||
+           file == "aois/" + clip + "_tobii.json" || file == "aois/" + clip + ".ias" ||
            (file.starts_with(stem) && file.find('/', stem.size()) == std::string::npos);
 }
 

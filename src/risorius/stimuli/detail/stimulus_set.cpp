@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "risorius/core/input_log.h"
@@ -13,9 +14,12 @@
 #include "risorius/core/version.h"
 #include "risorius/plot/write_chart.h"
 #include "risorius/report/html_writer.h"
+#include "risorius/stimuli/detail/aois.h"
 #include "risorius/stimuli/detail/catalogue.h"
 #include "risorius/stimuli/detail/experiment_files.h"
 #include "risorius/stimuli/detail/luminance_match.h"
+#include "risorius/stimuli/detail/methods.h"
+#include "risorius/stimuli/detail/norms.h"
 #include "risorius/stimuli/detail/own_files.h"
 
 namespace risorius::stimuli {
@@ -33,6 +37,7 @@ std::string read_me(const BatchPlan& plan) {
            "- stimuli/stimuli.tsv lists the clips with their values, and with the times at which\n"
            "  movement is seen; stimuli/stimuli.json says what each column is.\n"
            "- Beside each clip there is a table with a row for each frame, and how it was made.\n"
+           "- methods.md is a paragraph for the paper.\n"
            "- triggers.tsv lists the codes that the programs in experiment/ send.\n"
            "- SHA256SUMS has the checksums of all files.\n";
 }
@@ -40,6 +45,7 @@ std::string read_me(const BatchPlan& plan) {
 Json dataset_description(const BatchPlan& plan) {
     Json out{{"Name", plan.name},
              {"BIDSVersion", "1.10.0"},
+             {"HEDVersion", "8.4.0"},
              {"DatasetType", "derivative"},
              {"License", plan.dataset.license},
              {"Authors", plan.dataset.authors},
@@ -52,9 +58,11 @@ Json dataset_description(const BatchPlan& plan) {
 
 /// Files that BIDS does not know.
 constexpr const char* kBidsIgnore =
-    "SHA256SUMS\nindex.html\ntriggers.tsv\ncodes.tsv\ncode/\nexperiment/\nluminance/\noverview/"
+    "SHA256SUMS\nindex.html\nmethods.md\ntriggers.tsv\ncodes.tsv\nsample.tsv\nsample.json\ncode/"
+    "\nexperiment/"
+    "\nluminance/\noverview/"
     "\naois/\n"
-    "intermediate/\n*.new\n.risorius-*\n";
+    "norms/\nintermediate/\n*.new\n.risorius-*\n";
 /// The annotations of BEP044.
 constexpr const char* kAnnotations =
     "annot_id\tdescription\nannot-frames\tA row for each frame as it is shown: drive of the face, "
@@ -63,7 +71,7 @@ constexpr const char* kAoiAnnotation =
     "annot-aois\tA row for each frame and area of interest: its polygon in the picture\n";
 
 std::string overview(const std::string& name, const std::vector<Json>& records,
-                     const std::vector<ClipPlan>& clips) {
+                     const std::vector<ClipPlan>& clips, const fs::path& folder) {
     report::HtmlWriter html;
     html.element("h1", name);
     html.element("p",
@@ -86,10 +94,12 @@ std::string overview(const std::string& name, const std::vector<Json>& records,
         }
         html.open("figure");
         const ClipFiles files = clip_files(clips[i]);
-        html.open("a", {{"href", files.video.generic_string()}});
+        html.open("a", {{"href", files.video.generic_string()},
+                        {"style", "position: relative; display: inline-block"}});
         html.single("img", {{"src", files.strip.generic_string()},
                             {"loading", "lazy"},
                             {"alt", "Five frames of " + clips[i].condition.clip}});
+        if (clips[i].has_aois()) draw_aois(text_of_file(folder / files.aois), clips[i], html);
         html.close();
         std::string said = clips[i].condition.clip + ": ";
         for (const auto& [key, value] : one.at("values").items())
@@ -112,8 +122,8 @@ void remove_former_files(const fs::path& folder, const std::set<fs::path>& kept,
 /// Removes the folders of a set that have become empty.
 void remove_empty_folders(const fs::path& folder) {
     std::error_code ignored;
-    for (const char* below : {"code/scripts", "overview", "luminance", "experiment", "intermediate",
-                              "takes", "stimuli"})
+    for (const char* below : {"code/scripts", "overview", "luminance", "experiment", "norms",
+                              "intermediate", "takes", "stimuli"})
         if (!fs::is_symlink(fs::symlink_status(folder / below, ignored)))
             fs::remove(folder / below, ignored);  // fails for one that is not empty, as intended
 }
@@ -125,6 +135,22 @@ bool is_changed(const fs::path& folder, const fs::path& name, const std::set<fs:
     std::error_code none;
     return fs::is_regular_file(folder / name, none) && own.count(name) == 0 &&
            text_of_file(folder / name) != text;
+}
+
+/// The norms of the set, from the ratings that are given or that the set has already.
+std::optional<Norms> write_norms(const BatchPlan& plan, const BatchOptions& options,
+                                 const WriteFile& write) {
+    const fs::path kept = "norms/ratings.csv";
+    std::error_code none;
+    if (options.norms.empty() && !fs::is_regular_file(options.out / kept, none)) return {};
+    const ReadingFormerOutput former;
+    const fs::path file = options.norms.empty() ? options.out / kept : options.norms;
+    std::vector<Rating> ratings = read_ratings(file, clip_names(plan));
+    Norms norms = norms_of(ratings, right_answers(plan));
+    write(kept, text_of_file(file));
+    write("norms/norms.json", json_text(norms.json(), 2) + "\n");
+    write("norms/confusion.tsv", norms.confusion_table());
+    return norms;
 }
 
 }  // namespace
@@ -156,8 +182,10 @@ std::vector<std::string> write_set(const BatchPlan& plan, const BatchOptions& op
     };
     write("dataset_description.json", json_text(dataset_description(plan), 2) + "\n");
     write("README", read_me(plan));
+    write("methods.md", methods_text(plan, records));
     write(".bidsignore", kBidsIgnore);
-    const Catalogue catalogue = catalogue_of(plan, records);
+    const std::optional<Norms> norms = write_norms(plan, options, write);
+    const Catalogue catalogue = catalogue_of(plan, records, norms);
     write("stimuli/stimuli.tsv", catalogue.table);
     write("stimuli/stimuli.json", json_text(catalogue.columns, 2) + "\n");
     write("stimuli/annotations.tsv", plan.clips.front().clips.aois.empty()
@@ -165,12 +193,17 @@ std::vector<std::string> write_set(const BatchPlan& plan, const BatchOptions& op
                                          : std::string(kAnnotations) + kAoiAnnotation);
     write("triggers.tsv", triggers(records, plan.codes));
     if (!plan.codes.table.empty()) write("codes.tsv", plan.codes.table);
+    if (!plan.samples.empty()) {
+        const Catalogue sample = sample_of(plan, records);
+        write("sample.tsv", sample.table);
+        write("sample.json", json_text(sample.columns, 2) + "\n");
+    }
     // It may be the design that is read.
     if (std::error_code none; fs::equivalent(design, folder / "code/design.json", none))
         files.insert("code/design.json");
     else
         write("code/design.json", text_of_file(design));
-    write("index.html", overview(plan.name, records, plan.clips));
+    write("index.html", overview(plan.name, records, plan.clips, folder));
     if (plan.match.luminance)
         for (const plot::Chart& chart : write_luminance_report(plan, records, write)) {
             // gnuplot writes where the first of its files is to be.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/stimuli/detail/trigger_codes.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
@@ -78,6 +79,11 @@ std::string triggers(const std::vector<Json>& records, const CodesOfClips& codes
         };
         const auto own = codes.code_of.find(one.at("stim_id").get<std::string>());
         row("clip_on", own == codes.code_of.end() ? 1 : own->second, 0);
+        if (one.contains("audio") && !one.at("audio").value("onset_s", Json()).is_null())
+            if (const int frame = static_cast<int>(
+                    std::lround(one.at("audio").at("onset_s").get<double>() * fps));
+                frame >= 0 && frame < one.at("frames").get<int>())
+                row("sound_onset", 5, frame);
         row("movement_onset", 2, one.at("movement_onset_frame"));
         row("apex", 3, one.at("apex_frame"));
         row("clip_off", 4, one.at("frames"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/design/detail/table.h"
+#include "risorius/design/table.h"
 
 #include <charconv>
 #include <cmath>
@@ -74,7 +74,7 @@ Json value_of(const std::string& cell) {
 
 }  // namespace
 
-std::vector<std::vector<Given>> read_table(const std::filesystem::path& file) {
+std::vector<std::vector<Given>> read_table(const std::filesystem::path& file, ColumnNames allowed) {
     const auto rows = cells_of(read_text(file, kTable), file.string());
     if (rows.size() < 2)
         throw Error(file.string(), "a row of names and a row for every condition",
@@ -82,7 +82,7 @@ std::vector<std::vector<Given>> read_table(const std::filesystem::path& file) {
     const std::vector<std::string>& names = rows[0].second;
     std::set<std::string> seen;
     for (const std::string& name : names) {
-        if (!is_parameter_name(name))
+        if (allowed == ColumnNames::kOfParameters && !is_parameter_name(name))
             throw Error(file.string() + ":1", "names of letters, digits and _",
                         risorius::in_quotes(name));
         if (!seen.insert(name).second)
@@ -103,6 +103,11 @@ std::vector<std::vector<Given>> read_table(const std::filesystem::path& file) {
                     {names[c], JsonCursor::from_json(value_of(cells[c]), place + ", " + names[c])});
     }
     return out;
+}
+
+std::string row_place(const std::vector<Given>& row) {
+    const std::string place = row.front().value.place();
+    return place.substr(0, place.rfind(":/"));
 }
 
 }  // namespace risorius::design
