@@ -20,6 +20,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -105,6 +106,8 @@ class MuscleSolids {
     std::vector<muscle::ChainSet::State> chain_states(const std::string& muscle, Side side,
                                                       const Points& x,
                                                       const Eigen::VectorXd& activation) const;
+    /// Returns the maximum isometric force of all chains of the volume muscle of a column, N; std::nullopt for other columns.
+    std::optional<double> greatest_force_n(int column) const;
     /// Returns one entry per part.
     std::vector<SolidFigures> figures(const Points& x, const Eigen::VectorXd& activation) const;
     double max_volume_error(const Points& x) const;  ///< maximum of |volume / rest volume - 1|
