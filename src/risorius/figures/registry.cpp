@@ -119,6 +119,8 @@ FigureResult run_figure(const JsonCursor& experiment, const RunOptions& options)
     figure.title = experiment.has("title") ? experiment.at("title").string() : id;
     figure.tables.push_back(outcome.measured.table());
     figure.checks = outcome.measured.check(experiment);
+    figure.claims = outcome.measured.claims(experiment);
+    figure.watched = outcome.measured.watched(experiment);
     figure.record["experiment"] = experiment.json();
     return std::move(outcome.figure);
 }
