@@ -110,6 +110,9 @@ class MuscleSolids {
     std::optional<double> greatest_force_n(int column) const;
     /// Returns one entry per part.
     std::vector<SolidFigures> figures(const Points& x, const Eigen::VectorXd& activation) const;
+    /// Returns one entry per cell, part by part.
+    std::vector<SolidCellState> cell_states(const Points& x,
+                                            const Eigen::VectorXd& activation) const;
     double max_volume_error(const Points& x) const;  ///< maximum of |volume / rest volume - 1|
     /// Adds smooth surfaces of all muscles for drawing. place_surfaces() then writes their rows of `vertices`, m.
     void add_surfaces(MuscleSurfaces& surfaces);
