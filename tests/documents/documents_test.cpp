@@ -39,6 +39,29 @@ TEST(Documents, PageOfTheCommandLineSaysWhatHelpSays) {
            "build/risorius manual-pages DIR && cp DIR/cli.md docs/";
 }
 
+TEST(Documents, PageOfTheThesisHasEveryClaimWithItsVerdict) {
+    const std::string page = bytes_of(kRoot / "docs/validation/thesis.md");
+    int claims = 0, rows = -2;  // without the head of the table
+    for (const auto& entry : fs::directory_iterator(kRoot / "samples/figures")) {
+        if (!fs::exists(entry.path() / "experiment.json")) continue;
+        const Json json = JsonCursor::read_file(entry.path() / "experiment.json").json();
+        if (!json.contains("claims")) continue;
+        for (const Json& claim : json["claims"]) {
+            ++claims;
+            const std::string verdict = claim["verdict"];
+            const std::string row = " | " + claim["says"].get<std::string>() + " | " +
+                                    claim["finds"].get<std::string>() + " | " +
+                                    (verdict == "missed" ? "**missed**" : verdict) + " |\n";
+            EXPECT_TRUE(page.find(row) != std::string::npos)
+                << "tools/docs/thesis_page.py makes docs/validation/thesis.md anew; missing:"
+                << row;
+        }
+    }
+    for (std::size_t at = 0; (at = page.find("\n|", at)) != std::string::npos; ++at) ++rows;
+    EXPECT_EQ(rows, claims);
+    EXPECT_GT(page.find("**missed**"), 0u);
+}
+
 // Pages and comments name sources by module and file: "face/face.cpp".
 TEST(Documents, SourcesThatPagesAndCommentsNameAreThere) {
     std::string modules;

@@ -17,7 +17,7 @@ Json shortened() {
         one["refine"] = {{"tolerance", 0.35}, {"deepest_level", 1}, {"rounds", 2}};
         one["reference"] = {{"tolerance", 0.3}, {"deepest_level", 2}, {"rounds", 3}};
     }
-    json["checks"] = Json::array();
+    forget_numbers(json);
     return json;
 }
 

@@ -27,7 +27,7 @@ std::map<std::string, std::vector<bool>> usable(double step_s,
     Json experiment = table_of_the_thesis();
     experiment["steps"] = Json{{"longest_s", step_s}, {"shortest_s", step_s}, {"per_decade", 1}};
     experiment["ratios"] = Json::array();
-    experiment["checks"] = Json::array();
+    forget_numbers(experiment);
     experiment["rest"]["integrator"]["step_s"] = 1;  // damps as well and takes a tenth of the steps
     Json chosen = Json::array();
     for (const Json& one : experiment["methods"])

@@ -16,7 +16,7 @@ namespace {
 Json coarse(const char* id, const std::vector<const char*>& runs) {
     Json json = sample(id);
     json["muscle"]["grid"] = {3, 3, 3};
-    json["checks"] = Json::array();
+    forget_numbers(json);
     Json chosen = Json::array();
     for (const char* name : runs)
         for (const Json& one : json["runs"])
@@ -148,9 +148,8 @@ TEST(MuscleVelocity, HillsHyperbolaIsFoundThroughItsPoints) {
 
 TEST(MuscleCurves, EveryNumberOfThePublishedSetsLiesInItsBand) {
     const FigureResult figure = run(sample("muscle-curves"));
-    EXPECT_GT(figure.checks.size(), 20u);
-    for (const Check& check : figure.checks)
-        EXPECT_TRUE(check.passes()) << check.name << ": " << check.measured;
+    EXPECT_GT(figure.checks.size() + figure.watched.size(), 30u);
+    EXPECT_TRUE(figure.passes());
     EXPECT_EQ(figure.charts.size(), 3u);
 }
 

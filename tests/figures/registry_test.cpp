@@ -76,6 +76,7 @@ TEST(Registry, EveryGridHasItsStepOrNone) {
 TEST(Registry, ChecksNameWhatWasMeasured) {
     Json json = sample("5");
     json["cases"] = Json::array({json["cases"][1]});
+    forget_numbers(json);
     json["checks"] = Json::parse(R"([{"measured": "length/raw-3x3x3"}])");
     EXPECT_EQ(message_of([&] { run(json); }),
               "experiment.json:/checks/0/measured: expected one of \"length_ratio/raw-3x3x3\" "
@@ -88,13 +89,98 @@ TEST(Registry, ChecksNameWhatWasMeasured) {
     EXPECT_EQ(message_of([&] { run(json); }),
               "experiment.json:/checks/0/low: expected at most \"high\", which is 1, found 2");
 
-    json["checks"] = Json::parse(R"([{"measured": "length_ratio/raw-3x3x3", "differs": true}])");
+    json["checks"] = Json::parse(
+        R"([{"measured": "length_ratio/raw-3x3x3", "range": "law", "published": "long"}])");
     EXPECT_EQ(message_of([&] { run(json); }),
-              "experiment.json:/checks/0/differs: expected false where nothing is \"published\", "
-              "found true");
+              "experiment.json:/checks/0/published: expected nothing unless \"range\" is "
+              "\"published\", found \"long\"");
+
+    json["checks"] = Json::parse(R"([{"measured": "length_ratio/raw-3x3x3", "range": "own"}])");
+    EXPECT_EQ(message_of([&] { run(json); }),
+              "experiment.json:/checks/0/range: expected one of \"published\" \"law\" \"demand\", "
+              "found \"own\"")
+        << "a range around one's own value proves nothing";
 
     json["checks"] = Json::parse(R"([{"measured": "length_ratio/raw-3x3x3", "low": 2}])");
     EXPECT_FALSE(run(json).passes()) << "a band it does not meet is a result, not an error";
+}
+
+/// Figure 5 with one cube, which hangs to 1.785 of its length, and one claim.
+FigureResult with_claim(const char* claim) {
+    Json json = sample("5");
+    json["cases"] = Json::array({json["cases"][1]});
+    forget_numbers(json);
+    Json read = Json::parse(claim);
+    read["says"] = "It hangs.";
+    read["finds"] = "It does.";
+    json["claims"] = Json::array({read});
+    return run(json);
+}
+
+TEST(Registry, AVerdictIsWhatTheMeasurementSays) {
+    const auto holds = [](const char* claim) { return with_claim(claim).passes(); };
+    EXPECT_TRUE(
+        holds(R"({"verdict": "agrees", "measured": "length_ratio/raw-3x3x3", "low": 1.7})"));
+    EXPECT_FALSE(
+        holds(R"({"verdict": "agrees", "measured": "length_ratio/raw-3x3x3", "low": 1.9})"));
+    EXPECT_TRUE(
+        holds(R"({"verdict": "missed", "measured": "length_ratio/raw-3x3x3", "low": 1.9})"));
+    EXPECT_FALSE(
+        holds(R"({"verdict": "missed", "measured": "length_ratio/raw-3x3x3", "low": 1.7})"))
+        << "what was missed and is met now must not stay missed on the page";
+    EXPECT_TRUE(holds(R"({"verdict": "cannot be known"})"));
+    EXPECT_TRUE(holds(R"({"verdict": "missed"})"));
+}
+
+TEST(Registry, AClaimMayBeAboutARatio) {
+    const FigureResult figure = with_claim(
+        R"({"verdict": "agrees", "measured": "greatest_move_m/raw-3x3x3",
+            "over": "length_ratio/raw-3x3x3", "low": 1, "high": 2})");
+    ASSERT_EQ(figure.claims.size(), 1u);
+    EXPECT_DOUBLE_EQ(figure.claims[0].value, measured(figure, "greatest_move_m/raw-3x3x3") /
+                                                 measured(figure, "length_ratio/raw-3x3x3"));
+    EXPECT_EQ(figure.claims[0].name, "greatest_move_m/raw-3x3x3 over length_ratio/raw-3x3x3");
+}
+
+TEST(Registry, AClaimThatCannotBeKnownHasNoBandAndABandHasAMeasurement) {
+    EXPECT_EQ(
+        message_of([] {
+            with_claim(R"({"verdict": "cannot be known",
+                                 "measured": "length_ratio/raw-3x3x3", "low": 1})");
+        }),
+        "experiment.json:/claims/0/measured: expected nothing where the verdict is \"cannot be "
+        "known\", found \"length_ratio/raw-3x3x3\"");
+    EXPECT_EQ(message_of([] { with_claim(R"({"verdict": "missed", "low": 1})"); }),
+              "experiment.json:/claims/0/low: expected \"measured\" beside it, found 1");
+    EXPECT_EQ(
+        message_of(
+            [] { with_claim(R"({"verdict": "missed", "measured": "length_ratio/raw-3x3x3"})"); }),
+        "experiment.json:/claims/0/measured: expected a measurement with \"low\" or \"high\", "
+        "found \"length_ratio/raw-3x3x3\"");
+}
+
+// A band that passes anything says nothing, and neither does a verdict without a reason.
+TEST(Registry, ClaimsOfTheThesisAreNarrowWhereItPrintsNumbers) {
+    int claims = 0, missed = 0, unknown = 0;
+    for (const Figure& figure : figures()) {
+        const Json json = sample(std::string(figure.id));
+        EXPECT_EQ(json.contains("claims"), figure.origin == Origin::kThesis) << figure.id;
+        if (!json.contains("claims")) continue;
+        for (const Json& claim : json["claims"]) {
+            ++claims;
+            missed += claim["verdict"] == "missed";
+            unknown += claim["verdict"] == "cannot be known";
+            if (claim["verdict"] == "missed") {
+                EXPECT_TRUE(claim.contains("measured")) << claim;
+            }
+            if (!claim.contains("low") || !claim.contains("high")) continue;
+            const double low = claim["low"], high = claim["high"];
+            EXPECT_TRUE(low <= 0 || high / low <= 4.01 || figure.id == "12a") << claim;
+        }
+    }
+    EXPECT_GT(claims, 40);
+    EXPECT_GT(missed, 10);
+    EXPECT_GT(unknown, 7);
 }
 
 TEST(Registry, ParallelWorkEndsWithItsFirstFailure) {

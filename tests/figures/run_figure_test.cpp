@@ -45,8 +45,21 @@ FigureResult numbers(const JsonCursor& experiment, const figures::RunOptions& op
     result.tables.push_back(
         {"numbers", {"time_s", "b, c"}, {{0.1, NAN}, {1e-9, kInfinity}}, {"a \"x\"", "y"}});
     result.checks.push_back({"peak", "%", 10.82, 8, 13, "up to ~10 %", "other <camera>"});
-    result.checks.back().range_from = "own";
-    result.checks.back().differs = true;
+    result.checks.back().range_from = "published";
+    result.watched.push_back({"steps", "", 7, 6, 8, "", ""});
+    result.claims.push_back({.says = "The peak is about 5 %.",
+                             .finds = "It is twice as high.",
+                             .verdict = Verdict::kMissed,
+                             .measured = true,
+                             .name = "peak",
+                             .unit = "%",
+                             .value = 10.82,
+                             .low = 4,
+                             .high = 6});
+    result.claims.push_back({.says = "It looks <round>.",
+                             .finds = "There is no number.",
+                             .verdict = Verdict::kUnknown});
+    if (experiment.has("agrees")) result.claims[0].verdict = Verdict::kAgrees;
     result.checks.push_back({"drift", "", 1e-5, -kInfinity, 1e-4, "", ""});
     if (experiment.has("measured"))
         result.checks.push_back(
@@ -127,8 +140,13 @@ TEST_F(Figures, OneLeavesItsNumbersChartsPicturesAndPage) {
     EXPECT_EQ(results["passes"], true);
     EXPECT_EQ(results["files"].get<std::set<std::string>>(), expected);
     EXPECT_EQ(results["checks"][0]["measured"], 10.82);
-    EXPECT_EQ(results["checks"][0]["range"], "own");
-    EXPECT_EQ(results["checks"][0]["differs"], true);
+    EXPECT_EQ(results["checks"][0]["range"], "published");
+    EXPECT_EQ(results["watched"][0]["name"], "steps");
+    EXPECT_EQ(results["claims"][0]["verdict"], "missed");
+    EXPECT_EQ(results["claims"][0]["holds"], true);
+    EXPECT_EQ(results["claims"][0]["high"], 6);
+    EXPECT_EQ(results["claims"][1]["verdict"], "cannot be known");
+    EXPECT_FALSE(results["claims"][1].contains("measured"));
     EXPECT_EQ(results["checks"][1]["low"], nullptr) << "JSON has no infinity";
     EXPECT_EQ(results["record"]["threads_do_not_matter"], 1);
     EXPECT_EQ(bytes_of(out() / "experiment.json"), bytes_of(folder_ / "from/x1/experiment.json"));
@@ -144,7 +162,7 @@ TEST_F(Figures, AllLeaveOnePageAndAFolderEach) {
     const FigureReport report = run_figures(options("all", drawn));
     ASSERT_EQ(report.failed.size(), 1u);
     EXPECT_EQ(report.failed[0].figure, "x2");
-    EXPECT_EQ(report.failed[0].check.name, "length");
+    EXPECT_EQ(report.failed[0].what, "length: expected 1 to 2 m, found 2.5 m");
     EXPECT_EQ(report.results["format"], "risorius-figures");
     EXPECT_EQ(report.results["passes"], false);
     EXPECT_EQ(report.results["figures"][0]["passes"], true);
@@ -164,9 +182,12 @@ TEST_F(Figures, AllLeaveOnePageAndAFolderEach) {
                              "✗ outside",
                              "✓ inside",
                              "2 of 3",
-                             "≠ differs",
-                             "= agrees",
-                             "our own value",
+                             "≠ missed",
+                             "? cannot be known",
+                             "It looks &lt;round&gt;.",
+                             "4 to 6 %",
+                             "They prove nothing",
+                             "what was published: up to ~10 %",
                              "href=\"x2/experiment.json\"",
                              "href=\"#figure-x2\"",
                              "id=\"figure-x2\"",
@@ -174,6 +195,17 @@ TEST_F(Figures, AllLeaveOnePageAndAFolderEach) {
 
                              "low | high"})
         EXPECT_TRUE(contains(page, part)) << part;
+}
+
+TEST_F(Figures, AVerdictThatIsNotMeasuredFails) {
+    add("x1", ", \"agrees\": true");
+    const FigureReport report = run_figures(options("x1"));
+    ASSERT_EQ(report.failed.size(), 1u);
+    EXPECT_EQ(report.failed[0].what,
+              "claim \"The peak is about 5 %.\": expected missed as the verdict, since peak is "
+              "10.82 % and the claim means 4 to 6 %; found agrees");
+    EXPECT_EQ(report.results["passes"], false);
+    EXPECT_TRUE(contains(bytes_of(out() / "index.html"), "not what is measured"));
 }
 
 TEST_F(Figures, SeveralLeaveOnePageInTheOrderAskedFor) {

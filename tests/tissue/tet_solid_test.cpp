@@ -188,6 +188,30 @@ TEST(TetSolid, HardensOnceItHasLessThanAFifthOfItsVolume) {
     EXPECT_NEAR(energy_at(0.2 + 1e-7), energy_at(0.2 - 1e-7), 1e-6 * kBulk_j) << "without a jump";
 }
 
+// The traction of the stress on the faces of a tet is the force of its energy on its corners: f_k = -sigma n A / 3, summed over the
+// three faces at corner k, which is sigma times the face opposite to it over 3.
+TEST(TetSolid, CauchyStressGivesTheForcesOfTheEnergy) {
+    for (const double amplitude : {2e-4, 8e-4, 2e-3}) {
+        Points rest;
+        const TetSolid solid = lone_tet(&rest);
+        const Points x = shaken(rest, amplitude, 5);
+        Points gradient = Points::Zero(4, 3);
+        solid.add_energy(x, gradient);
+        const Mat3 stress = solid.cauchy_stress_pa(x, 0);
+        EXPECT_LT((stress - stress.transpose()).norm(), 1e-12 * stress.norm());
+        const int opposite[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+        const double side = solid.deformation_gradient(x, 0).determinant() > 0 ? 1 : -1;
+        for (int k = 0; k < 4; ++k) {
+            const Vec3 a = x.row(opposite[k][0]), b = x.row(opposite[k][1]),
+                       c = x.row(opposite[k][2]);
+            const Vec3 area = side * 0.5 * (b - a).cross(c - a);  // outward
+            const Vec3 force = stress * area / 3;
+            EXPECT_LT((gradient.row(k).transpose() + force).norm(), 1e-9 * gradient.norm())
+                << amplitude << " " << k;
+        }
+    }
+}
+
 TEST(TetSolid, MassIsDensityTimesVolume) {
     const TetSolid solid = tissue_of(kTetBlock);
     const double volume = solid.volume(kTetBlock.rest);

@@ -25,6 +25,7 @@ void add_figure(CLI::App& app);
 void add_shapes(CLI::App& app);
 void add_solve(CLI::App& app);
 void add_import(CLI::App& app);
+void add_export(CLI::App& app);
 void add_batch(CLI::App& app);
 void add_reverse(CLI::App& app);
 void add_studio(CLI::App& app);

@@ -47,19 +47,14 @@ void list(const FigureArguments& arguments) {
 }
 
 void print_figure(const Json& figure) {
-    int passed = 0;
+    int passed = 0, missed = 0;
     for (const Json& check : figure["checks"]) passed += check["passes"].get<bool>();
-    std::printf("%-10s %d of %d numbers inside their accepted range  %s\n",
+    for (const Json& claim : figure["claims"]) missed += claim["verdict"] == "missed";
+    std::printf("%-10s %2d of %2d checks pass; %d of %d claims missed  %s\n",
                 figure["id"].get<std::string>().c_str(), passed,
-                static_cast<int>(figure["checks"].size()),
+                static_cast<int>(figure["checks"].size()), missed,
+                static_cast<int>(figure["claims"].size()),
                 figure["title"].get<std::string>().c_str());
-}
-
-std::string told(const figures::FailedCheck& failed) {
-    const figures::Check& check = failed.check;
-    const std::string unit = check.unit.empty() ? "" : " " + check.unit;
-    return failed.figure + ": " + check.name + ": expected " + figures::range_text(check) +
-           ", found " + figures::short_number(check.measured) + unit;
 }
 
 void run(const FigureArguments& arguments) {
@@ -85,7 +80,7 @@ void run(const FigureArguments& arguments) {
         std::printf("%s\n", page.c_str());
     }
     for (const figures::FailedCheck& failed : report.failed)
-        std::fprintf(stderr, "risorius: %s\n", told(failed).c_str());
+        std::fprintf(stderr, "risorius: %s\n", (failed.figure + ": " + failed.what).c_str());
     if (!report.failed.empty())
         throw RunError(std::to_string(report.failed.size()) +
                        (report.failed.size() == 1 ? " number lies" : " numbers lie") +

@@ -31,16 +31,20 @@ void print_rig(const Json& info) {
         std::printf("\n");
     }
     std::printf(
-        "\nMuscles (.l and .r where paired), excitation 0 to 1; greatest force x strength on this "
-        "head; what the muscle does\n");
+        "\nMuscles (.l and .r where paired), excitation 0 to 1; greatest force of one side as it "
+        "is "
+        "simulated (in N = force in the table x strength x common factor x size^2); simulated as "
+        "bundles, solid or line of action; what the muscle does\n");
     for (const Json& muscle : info["muscles"]) {
         std::printf("  %-36s %-5s", text(muscle["id"]).c_str(),
                     muscle["paired"].get<bool>() ? ".l .r" : "");
-        if (muscle.contains("force_n"))
-            std::printf("  %5.1f N x %.2f", muscle["force_n"].get<double>(),
-                        muscle["strength"].get<double>());
+        if (muscle.contains("greatest_force_n"))
+            std::printf("  %7.2f = %6.2f x %.2f x %.2f  %-7s",
+                        muscle["greatest_force_n"].get<double>(), muscle["table_n"].get<double>(),
+                        muscle["strength"].get<double>(), muscle["factor"].get<double>(),
+                        text(muscle["simulated_as"]).c_str());
         else
-            std::printf("%16s", "");
+            std::printf("%42s", "");
         std::printf("  %s%s%s\n", text(muscle["action"]).c_str(),
                     muscle["min"].get<double>() < 0 ? "; from -1" : "",
                     muscle.contains("moves_jaw") ? " (in scripts with \"jaw\": \"muscles\")" : "");

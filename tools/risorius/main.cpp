@@ -144,6 +144,7 @@ int run(int argc, char** argv) {
     cli::add_shapes(app);
     cli::add_solve(app);
     cli::add_import(app);
+    cli::add_export(app);
     cli::add_batch(app);
     cli::add_reverse(app);
     cli::add_studio(app);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/rig/head.h"
+#include "risorius/rig/muscle_force.h"
 #include "risorius/scene/rig_files.h"
 #include "tools/risorius/stop_signals.h"
 
@@ -23,26 +24,25 @@ Json parts_of(const scene::RigFiles& files) {
     return out;
 }
 
-Json muscles_of(const rig::RigDescription& rig) {
+Json muscles_of(const rig::RigDescription& rig, double size) {
     Json out = Json::array();
     for (const rig::Muscle& muscle : rig.muscles.muscles) {
-        int bands = 0;
-        double force_n = 0, strength = 1;
-        for (const rig::MuscleBand& band : rig.atlas.bands)
-            if (band.muscle == muscle.id) {
-                ++bands;
-                force_n += band.force_n;
-                strength = band.strength;
-            }
-        Json entry{{"id", muscle.id},         {"name", muscle.name},
-                   {"group", muscle.group},   {"paired", muscle.paired},
-                   {"action", muscle.action}, {"min", muscle.tonic ? -1.0 : 0.0},
-                   {"bands", bands}};
+        const rig::MuscleForce force = rig::muscle_force(rig, muscle, size);
+        Json entry{{"id", muscle.id},
+                   {"name", muscle.name},
+                   {"group", muscle.group},
+                   {"paired", muscle.paired},
+                   {"action", muscle.action},
+                   {"min", muscle.tonic ? -1.0 : 0.0},
+                   {"bands", rig::bands_of(rig.atlas, muscle.id)},
+                   {"simulated_as", rig::name_of(force.model)}};
         if (muscle.group == "jaw" || muscle.group == "hyoid")
             entry["moves_jaw"] = true;  // when a script says "jaw": "muscles"
-        if (bands > 0) {
-            entry["force_n"] = force_n;
-            entry["strength"] = strength;
+        if (force.model != rig::MuscleModel::kNone) {
+            entry["greatest_force_n"] = force.greatest_n;
+            entry["table_n"] = force.table_n;
+            entry["strength"] = force.strength;
+            entry["factor"] = force.factor;
         }
         out.push_back(entry);
     }
@@ -65,7 +65,7 @@ Json rig_info(const std::filesystem::path& rig_file) {
     out["residual_mm"] = 1e3 * head.frame.residual_m;
     out["landmarks"] = {{"given", files.rig.landmarks.size()},
                         {"placed_by_the_atlas", head.warped_landmarks}};
-    out["muscles"] = muscles_of(files.rig);
+    out["muscles"] = muscles_of(files.rig, head.size);
     out["columns"] = files.rig.channels().column_count();
     out["action_units"] = Json::array();
     for (const track::ActionUnit& unit : files.rig.facs.units)

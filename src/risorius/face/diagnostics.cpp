@@ -11,6 +11,23 @@
 
 namespace risorius::face {
 
+namespace {
+
+const rig::Muscle& muscle_named(const rig::RigDescription& rig, const std::string& muscle) {
+    const std::vector<rig::Muscle>& muscles = rig.muscles.muscles;
+    const auto known = std::find_if(muscles.begin(), muscles.end(),
+                                    [&](const rig::Muscle& one) { return one.id == muscle; });
+    if (known == muscles.end()) {
+        std::vector<std::string> names;
+        for (const rig::Muscle& one : muscles) names.push_back(one.id);
+        throw Error("muscle", "one of the rig's muscles" + did_you_mean(muscle, names),
+                    in_quotes(muscle));
+    }
+    return *known;
+}
+
+}  // namespace
+
 track::Drive Diagnostics::driven(track::Drive drive) const {
     drive = face_->complete(std::move(drive));
     drive.excitation = face_->driven_jaw.excitation(drive.excitation, drive);
@@ -37,15 +54,7 @@ std::vector<SolidFigures> Diagnostics::solid_figures() const {
 }
 
 std::optional<MuscleState> Diagnostics::muscle_state(const std::string& muscle, Side side) const {
-    const std::vector<rig::Muscle>& muscles = face_->rig.muscles.muscles;
-    const auto known = std::find_if(muscles.begin(), muscles.end(),
-                                    [&](const rig::Muscle& one) { return one.id == muscle; });
-    if (known == muscles.end()) {
-        std::vector<std::string> names;
-        for (const rig::Muscle& one : muscles) names.push_back(one.id);
-        throw Error("muscle", "one of the rig's muscles" + did_you_mean(muscle, names),
-                    in_quotes(muscle));
-    }
+    const rig::Muscle& known = muscle_named(face_->rig, muscle);
     const int column = face_->channels.column(muscle, side);
     const FaceImpl::State& now = face_->now;
     std::vector<muscle::ChainSet::State> fibres =
@@ -68,8 +77,17 @@ std::optional<MuscleState> Diagnostics::muscle_state(const std::string& muscle, 
         out.force_n += fibre.force_n;
     }
     const double size = face_->head.size;
-    if (known->area_m2 > 0) out.stress_pa = out.force_n / (known->area_m2 * size * size);
+    if (known.area_m2 > 0) out.stress_pa = out.force_n / (known.area_m2 * size * size);
     return out;
+}
+
+std::optional<double> Diagnostics::greatest_force_n(const std::string& muscle, Side side) const {
+    const int column = face_->channels.column(muscle_named(face_->rig, muscle).id, side);
+    if (const auto solid = face_->tissue.solids().greatest_force_n(column)) return solid;
+    std::optional<double> bundles;
+    for (const muscle::Fibre& fibre : face_->tissue.fibres().fibres())
+        if (fibre.column == column) bundles = bundles.value_or(0) + fibre.f0_n;
+    return bundles ? bundles : face_->driven_jaw.greatest_force_n(column);
 }
 
 Vec3 Diagnostics::landmark(const std::string& id) const {

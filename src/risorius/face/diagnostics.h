@@ -52,6 +52,9 @@ class Diagnostics {
     /// std::nullopt for a muscle that the face does not simulate: a jaw muscle while channels place the jaw, or a muscle that only
     /// moves a lid.
     std::optional<MuscleState> muscle_state(const std::string& muscle, Side side) const;
+    /// Returns the maximum isometric force of all fibres of one side of a muscle, N, at activation 1 and optimal length. A muscle with one
+    /// column gives the same for both sides. Returns std::nullopt where muscle_state() does. Throws Error for an unknown id.
+    std::optional<double> greatest_force_n(const std::string& muscle, Side side) const;
     /// Returns length / rest length of a muscle's fibres, mean over both sides; 1 for an unknown id.
     double mean_stretch(const std::string& muscle) const;
     /// Returns measures of the volume muscles, one entry per side of each.

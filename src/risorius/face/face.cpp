@@ -7,6 +7,7 @@
 #include "risorius/face/calibration.h"
 #include "risorius/face/detail/face_impl.h"
 #include "risorius/face/diagnostics.h"
+#include "risorius/face/fields.h"
 #include "risorius/face/statics.h"
 #include "risorius/face/surfaces.h"
 
@@ -87,6 +88,7 @@ const rig::Head& Face::head() const { return impl_->head; }
 Statics Face::statics() const { return Statics(*impl_); }
 Diagnostics Face::diagnostics() const { return Diagnostics(*impl_); }
 Surfaces Face::surfaces() const { return Surfaces(*impl_); }
+Fields Face::fields() const { return Fields(*impl_); }
 Calibration Face::calibration() { return Calibration(*impl_); }
 
 }  // namespace risorius::face

@@ -5,10 +5,11 @@
 ///
 /// The state depends on the drives alone: the same drives give the same bytes. The equations are in docs/theory/integrator.md.
 ///
-/// `Face` itself steps in time and returns poses. Four views give access to the rest; each has a header of its own:
+/// `Face` itself steps in time and returns poses. Five views give access to the rest; each has a header of its own:
 /// - `statics()` (statics.h): gradient, linear solves and sensitivities of an equilibrium
 /// - `diagnostics()` (diagnostics.h): state of the muscles, landmarks, energies, penetration, mesh, history of the solver
 /// - `surfaces()` (surfaces.h): surfaces of the muscles, wrinkles, poses from given vertices
+/// - `fields()` (fields.h): stress, contact and muscles as fields over the meshes
 /// - `calibration()` (calibration.h): changes of the muscle strengths of a face that is already built
 #pragma once
 
@@ -33,6 +34,7 @@ namespace risorius::face {
 
 class Calibration;
 class Diagnostics;
+class Fields;
 class Statics;
 class Surfaces;
 struct FaceImpl;
@@ -96,6 +98,7 @@ class Face {
     Statics statics() const;
     Diagnostics diagnostics() const;
     Surfaces surfaces() const;
+    Fields fields() const;
     Calibration calibration();
 
   private:

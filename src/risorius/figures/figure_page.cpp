@@ -14,7 +14,9 @@ namespace risorius::figures {
 namespace {
 
 using figures::Check;
+using figures::Claim;
 using figures::FigureResult;
+using figures::Verdict;
 
 constexpr const char* kBeyondTitle = "Beyond the thesis";
 
@@ -33,9 +35,18 @@ std::string with_unit(const std::string& text, const std::string& unit) {
 void write_mark(report::HtmlWriter& html, const Check& check) {
     html.element("span", check.passes() ? "✓ inside" : "✗ outside",
                  {{"class", check.passes() ? "good" : "bad"}});
-    if (check.published.empty()) return;
-    html.single("br").element("span", check.differs ? "≠ differs" : "= agrees",
-                              {{"class", check.differs ? "bad" : "good"}});
+}
+
+void write_verdict(report::HtmlWriter& html, const Claim& claim) {
+    const char* symbol = claim.verdict == Verdict::kAgrees   ? "= "
+                         : claim.verdict == Verdict::kMissed ? "≠ "
+                                                             : "? ";
+    const char* kind = claim.verdict == Verdict::kAgrees   ? "good"
+                       : claim.verdict == Verdict::kMissed ? "bad"
+                                                           : "soft";
+    html.element("span", symbol + std::string(name_of(claim.verdict)), {{"class", kind}});
+    if (!claim.holds())
+        html.single("br").element("span", "✗ not what is measured", {{"class", "bad"}});
 }
 
 /// Where a range comes from, for a table.
@@ -43,26 +54,31 @@ std::string source_text(const Check& check) {
     if (check.range_from == "published") return "what was published";
     if (check.range_from == "law") return "a law";
     if (check.range_from == "demand") return "a demand";
-    if (check.range_from == "own") return "our own value";
     return "–";
 }
 
 /// Numbers of checks of all figures.
 struct Counts {
-    int all = 0, inside = 0, published = 0, differing = 0;
-    int from_publication = 0, from_law = 0, demanded = 0, own = 0;
+    int all = 0, inside = 0, from_publication = 0, from_law = 0, demanded = 0;
+    int watched = 0, changed = 0, claims = 0, missed = 0, unknown = 0;
 };
 
 void count(const FigureResult& figure, Counts& counts) {
     for (const Check& check : figure.checks) {
         ++counts.all;
         counts.inside += check.passes();
-        counts.published += !check.published.empty();
-        counts.differing += check.differs;
         counts.from_publication += check.range_from == "published";
         counts.from_law += check.range_from == "law";
         counts.demanded += check.range_from == "demand";
-        counts.own += check.range_from == "own";
+    }
+    for (const Check& check : figure.watched) {
+        ++counts.watched;
+        counts.changed += !check.passes();
+    }
+    for (const Claim& claim : figure.claims) {
+        ++counts.claims;
+        counts.missed += claim.verdict == Verdict::kMissed;
+        counts.unknown += claim.verdict == Verdict::kUnknown;
     }
 }
 
@@ -83,6 +99,17 @@ int digits_of(const Check& check) {
     return kMax;
 }
 
+/// The band of a claim in the form of a check, for its texts.
+Check band_of(const Claim& claim) {
+    return {.name = claim.name,
+            .unit = claim.unit,
+            .measured = claim.value,
+            .low = claim.low,
+            .high = claim.high,
+            .published = "",
+            .note = ""};
+}
+
 /// The heading of a figure: "Figure 9b" for numbered ones, otherwise its name.
 std::string heading(const FigureResult& figure) {
     const bool numbered =
@@ -100,7 +127,7 @@ void write_summary(report::HtmlWriter& html, const std::vector<ShownFigure>& fig
     html.open("div", {{"class", "scroll"}}).open("table").open("tr");
     for (const char* head : {"Figure", "What it shows", "Numbers inside their accepted range"})
         html.element("th", head);
-    html.element("th", "Differ from what was published", {{"class", "number"}});
+    html.element("th", "Claims missed", {{"class", "number"}});
     html.element("th", "Takes about", {{"class", "number"}});
     html.close();
     bool beyond = false;
@@ -123,9 +150,9 @@ void write_summary(report::HtmlWriter& html, const std::vector<ShownFigure>& fig
         Counts counts;
         count(figure.result, counts);
         html.element("td",
-                     counts.published == 0 ? "–"
-                                           : std::to_string(counts.differing) + " of " +
-                                                 std::to_string(counts.published),
+                     counts.claims == 0
+                         ? "–"
+                         : std::to_string(counts.missed) + " of " + std::to_string(counts.claims),
                      {{"class", "number"}});
         html.element("td", figure.run_time_s > 0 ? short_number(figure.run_time_s) + " s" : "",
                      {{"class", "number"}});
@@ -137,27 +164,51 @@ void write_summary(report::HtmlWriter& html, const std::vector<ShownFigure>& fig
     html.close();
 }
 
-void write_checks(report::HtmlWriter& html, const FigureResult& figure) {
-    if (figure.checks.empty()) return;
-    const bool noted = std::any_of(figure.checks.begin(), figure.checks.end(),
-                                   [](const Check& check) { return !check.note.empty(); });
-    html.element("h3", "Published and measured");
+void write_claims(report::HtmlWriter& html, const FigureResult& figure) {
+    if (figure.claims.empty()) return;
+    html.element("h3", "What was published, and what is found here");
     html.open("div", {{"class", "scroll"}}).open("table").open("tr");
-    html.element("th", "Number").element("th", "Published");
-    html.element("th", "Measured", {{"class", "number"}})
-        .element("th", "Accepted")
-        .element("th", "Range is from")
-        .element("th", "");
+    html.element("th", "Published").element("th", "Found here").element("th", "Verdict");
+    html.element("th", "Measured", {{"class", "number"}}).element("th", "The claim means").close();
+    for (const Claim& claim : figure.claims) {
+        html.open("tr");
+        html.element("td", claim.says).element("td", claim.finds);
+        html.open("td", {{"class", "mark"}});
+        write_verdict(html, claim);
+        html.close();
+        const Check band = band_of(claim);
+        html.element("td",
+                     claim.measured
+                         ? with_unit(short_number(claim.value, digits_of(band)), claim.unit)
+                         : "–",
+                     {{"class", "number"}});
+        html.element("td", claim.measured ? range_text(band) : "–");
+        html.close();
+    }
+    html.close().close();
+}
+
+/// `sourced`: the ranges have a source, as those of checks do.
+void write_numbers(report::HtmlWriter& html, const std::vector<Check>& checks, bool sourced) {
+    const bool noted = std::any_of(checks.begin(), checks.end(),
+                                   [](const Check& check) { return !check.note.empty(); });
+    html.open("div", {{"class", "scroll"}}).open("table").open("tr");
+    html.element("th", "Number").element("th", "Measured", {{"class", "number"}});
+    html.element("th", sourced ? "Accepted" : "Was about");
+    if (sourced) html.element("th", "Range is from");
+    html.element("th", "");
     if (noted) html.element("th", "Note");
     html.close();
-    for (const Check& check : figure.checks) {
+    for (const Check& check : checks) {
         html.open("tr");
         html.element("td", check.name);
-        html.element("td", check.published.empty() ? "–" : check.published);
         html.element("td", with_unit(short_number(check.measured, digits_of(check)), check.unit),
                      {{"class", "number"}});
         html.element("td", range_text(check));
-        html.element("td", source_text(check));
+        if (sourced)
+            html.element("td", check.published.empty()
+                                   ? source_text(check)
+                                   : source_text(check) + ": " + check.published);
         html.open("td", {{"class", "mark"}});
         write_mark(html, check);
         html.close();
@@ -165,6 +216,20 @@ void write_checks(report::HtmlWriter& html, const FigureResult& figure) {
         html.close();
     }
     html.close().close();
+}
+
+void write_checks(report::HtmlWriter& html, const FigureResult& figure) {
+    if (!figure.checks.empty()) {
+        html.element("h3", "Checks");
+        write_numbers(html, figure.checks, /*sourced=*/true);
+    }
+    if (figure.watched.empty()) return;
+    html.element("h3", "Numbers that are watched");
+    html.element("p",
+                 "Their ranges lie around the values first measured here, so that a change is "
+                 "noticed. They prove nothing.",
+                 {{"class", "soft"}});
+    write_numbers(html, figure.watched, /*sourced=*/false);
 }
 
 void write_image(report::HtmlWriter& html, const std::string& file,
@@ -266,23 +331,22 @@ void write_introduction(report::HtmlWriter& html, const std::vector<ShownFigure>
         html.element(
             "p",
             "\"The thesis\" is M. Dobsik, Computer Animation of Soft Tissues, summary of a "
-            "Ph.D. thesis, Brno University of Technology, 2005. Its figures 10 and 11, the "
-            "muscle, its tension over length and its quick release, are not here yet. A is "
-            "the thesis' finite differences, B are trilinear cells.");
-    html.element(
-        "p", text(n.inside) + " of " + text(n.all) +
-                 " numbers lie inside their accepted range, which is not to say that as many "
-                 "agree with what was published: the range comes from what was published for " +
-                 text(n.from_publication) + ", from a law or closed form for " + text(n.from_law) +
-                 ", is a demand on the computation for " + text(n.demanded) +
-                 " and lies around our own value, so that a change is "
-                 "noticed, for " +
-                 text(n.own) + ".");
-    if (n.published > 0)
-        html.element("p", "Something was published about " + text(n.published) +
-                              " of them: " + text(n.published - n.differing) +
-                              " agree with it, mostly as words, and " + text(n.differing) +
-                              " differ, inside their range or not.");
+            "Ph.D. thesis, Brno University of Technology, 2005. A is the thesis' finite "
+            "differences, B are trilinear cells.");
+    html.element("p", text(n.inside) + " of " + text(n.all) +
+                          " checks pass. Their ranges come from a law or closed form for " +
+                          text(n.from_law) + ", from what was published for " +
+                          text(n.from_publication) + ", and are demands on the computation for " +
+                          text(n.demanded) + ". " + text(n.watched) +
+                          " further numbers are watched, so that a change is noticed; " +
+                          text(n.changed) + " have changed.");
+    if (n.claims > 0)
+        html.element("p", "Of " + text(n.claims) + " published claims " +
+                              text(n.claims - n.missed - n.unknown) +
+                              " agree with what is "
+                              "found here, " +
+                              text(n.missed) + " are missed, and " + text(n.unknown) +
+                              " cannot be known.");
     html.element(
         "p",
         "Every chart comes with its data and the script that draws it, every figure with the "
@@ -294,6 +358,7 @@ void write_figure_section(report::HtmlWriter& html, const ShownFigure& figure) {
     html.open("section", {{"id", anchor(result)}});
     html.element("h2", heading(result));
     write_pictures(html, figure);
+    write_claims(html, result);
     write_checks(html, result);
     report::write_markdown(html, without_title(figure.readme), 3);
     write_tables(html, figure);
@@ -325,6 +390,27 @@ std::string range_text(const Check& check) {
     if (std::isinf(check.high)) return with_unit("at least " + low, check.unit);
     if (check.low == check.high) return with_unit("exactly " + low, check.unit);
     return with_unit(low + " to " + high, check.unit);
+}
+
+std::vector<std::string> failures_of(const FigureResult& figure) {
+    std::vector<std::string> out;
+    const auto found = [](const Check& check) {
+        return ", found " + with_unit(short_number(check.measured), check.unit);
+    };
+    for (const auto* list : {&figure.checks, &figure.watched})
+        for (const Check& check : *list)
+            if (!check.passes())
+                out.push_back(check.name + ": expected " + range_text(check) + found(check));
+    for (const Claim& claim : figure.claims) {
+        if (claim.holds()) continue;
+        const Check band = band_of(claim);
+        out.push_back("claim \"" + claim.says + "\": expected " +
+                      (claim.inside() ? "agrees" : "missed") + " as the verdict, since " +
+                      claim.name + " is " + with_unit(short_number(claim.value), claim.unit) +
+                      " and the claim means " + range_text(band) + "; found " +
+                      std::string(name_of(claim.verdict)));
+    }
+    return out;
 }
 
 std::string figure_page(const std::vector<ShownFigure>& figures) {

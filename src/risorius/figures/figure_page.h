@@ -31,6 +31,9 @@ std::string figure_page(const std::vector<ShownFigure>& figures);
 /// Returns the accepted range of a check in words: "8 to 13 %", "at most 5 %", "at least 2".
 std::string range_text(const figures::Check& check);
 
+/// Returns a line for each check, claim and watched number that fails: "peak: expected 8 to 13 %, found 14 %".
+std::vector<std::string> failures_of(const FigureResult& figure);
+
 /// Returns a number as text for people, with `digits` significant digits: "10.82", "0.0002", "1.2e-09".
 std::string short_number(double value, int digits = 4);
 

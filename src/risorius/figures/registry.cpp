@@ -18,6 +18,7 @@
 #include "risorius/figures/detail/muscle_velocity.h"
 #include "risorius/figures/detail/stable_step.h"
 #include "risorius/figures/detail/static_resolution.h"
+#include "risorius/figures/detail/verification.h"
 #include "risorius/figures/detail/volume_history.h"
 
 namespace risorius::figures {
@@ -44,6 +45,7 @@ const std::vector<NamedKind>& kind_table() {
         {"contact", run_contact_scenes},
         {"hanging-curve", run_hanging_curve},
         {"adaptive", run_adaptive},
+        {"verification", run_verification},
     };
     return table;
 }
@@ -86,6 +88,13 @@ const std::vector<Figure>& figures() {
         {"contact", "Soft bodies on rigid things and on each other", "contact", 30,
          Origin::kBeyond},
         {"adaptive", "Resolution where the strain asks for it", "adaptive", 10, Origin::kBeyond},
+        {"cantilever", "Cells against Timoshenko's cantilever", "verification", 20,
+         Origin::kBeyond},
+        {"cook", "Cells against Cook's panel", "verification", 5, Origin::kBeyond},
+        {"patch", "Patch test on distorted cells", "verification", 1, Origin::kBeyond},
+        {"torsion", "Cells against pure torsion", "verification", 10, Origin::kBeyond},
+        {"manufactured", "Cells against a manufactured solution", "verification", 10,
+         Origin::kBeyond},
     };
     return list;
 }
@@ -119,6 +128,8 @@ FigureResult run_figure(const JsonCursor& experiment, const RunOptions& options)
     figure.title = experiment.has("title") ? experiment.at("title").string() : id;
     figure.tables.push_back(outcome.measured.table());
     figure.checks = outcome.measured.check(experiment);
+    figure.claims = outcome.measured.claims(experiment);
+    figure.watched = outcome.measured.watched(experiment);
     figure.record["experiment"] = experiment.json();
     return std::move(outcome.figure);
 }

@@ -292,8 +292,8 @@ FigureReport run_figures(const FigureOptions& options, const ProgressMonitor& mo
     FigureReport report;
     const bool together = is_several(options);
     for (const ShownFigure& figure : figures) {
-        for (const figures::Check& check : figure.result.checks)
-            if (!check.passes()) report.failed.push_back({figure.result.id, check});
+        for (const std::string& what : failures_of(figure.result))
+            report.failed.push_back({figure.result.id, what});
         const fs::path folder = staged.partial() / figure.folder;
         Json json = figure_json(figure.result);
         std::set<std::string> to_come{"results.json"};

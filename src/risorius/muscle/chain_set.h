@@ -45,6 +45,7 @@ class ChainSet {
 
     void set_f0(double f0_n) { properties_.f0_n = f0_n; }
     const ChainProperties& properties() const { return properties_; }
+    int size() const { return static_cast<int>(chains_.size()); }  ///< number of chains
 
     /// Returns E, J, and adds dE/dx to `gradient`, n x 3, N. `activation` is a.
     double add_energy(const Points& x, double activation, Points& gradient) const;

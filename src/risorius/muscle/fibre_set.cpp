@@ -286,6 +286,22 @@ std::vector<FibreSet::State> FibreSet::states(const Points& x,
     return states;
 }
 
+std::vector<FibreSet::State> FibreSet::segment_states(const Points& x,
+                                                      const Eigen::VectorXd& activation) const {
+    place_points(x);
+    std::vector<State> states;
+    for (const Fibre& fibre : fibres_)
+        for (int p = fibre.first_point; p < fibre.first_point + fibre.point_count - 1; ++p) {
+            State state{.length_m = length(p)};
+            state.stretch = state.length_m / optimal_length_m_[static_cast<std::size_t>(p)];
+            state.force_n =
+                fibre.f0_n * (activation[fibre.column] * curves_.active(state.stretch).force +
+                              curves_.passive(state.stretch).force);
+            states.push_back(state);
+        }
+    return states;
+}
+
 Points FibreSet::positions(const Points& x) const {
     place_points(x);
     Points positions(static_cast<Eigen::Index>(points_.size()), 3);

@@ -110,6 +110,9 @@ class FibreSet {
     /// One state per fibre. `activation` is indexed by Fibre::column.
     std::vector<State> states(const Points& x, const Eigen::VectorXd& activation) const;
 
+    /// One state per segment, fibre by fibre.
+    std::vector<State> segment_states(const Points& x, const Eigen::VectorXd& activation) const;
+
     /// Positions of the points, P x 3, m, for drawing and measuring.
     Points positions(const Points& x) const;
 

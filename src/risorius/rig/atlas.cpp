@@ -64,10 +64,10 @@ std::vector<std::string> Atlas::landmark_ids() const {
 }
 
 std::vector<ThicknessSample> read_thickness(JsonCursor json) {
-    json.allow_keys({"source", "frame", "points"});
+    json.allow_keys({"source", "sources", "frame", "points"});
     std::vector<ThicknessSample> out;
     for (const JsonCursor& item : json.at("points").items()) {
-        item.allow_keys({"id", "name", "landmark", "offset_mm", "thickness_mm", "source"});
+        item.allow_keys({"id", "name", "landmark", "offset_mm", "thickness_mm", "source", "note"});
         out.push_back({item.at("landmark").string(), 1e-3 * item.at("offset_mm").vec3(),
                        1e-3 * item.at("thickness_mm").number({0.1, 60})});
     }
@@ -75,7 +75,7 @@ std::vector<ThicknessSample> read_thickness(JsonCursor json) {
 }
 
 std::vector<AttachmentSample> read_attachments(JsonCursor json) {
-    json.allow_keys({"source", "unit", "attachments"});
+    json.allow_keys({"source", "sources", "unit", "attachments"});
     std::vector<AttachmentSample> out;
     for (const std::string& id : json.at("attachments").keys()) {
         const std::vector<JsonCursor> pair = json.at("attachments").at(id).items();
@@ -86,7 +86,7 @@ std::vector<AttachmentSample> read_attachments(JsonCursor json) {
 }
 
 std::vector<MuscleBand> read_muscle_bands(JsonCursor json) {
-    json.allow_keys({"source", "note", "muscles"});
+    json.allow_keys({"source", "sources", "note", "muscles"});
     std::vector<MuscleBand> out;
     for (const std::string& muscle : json.at("muscles").keys())
         for (const JsonCursor& item : json.at("muscles").at(muscle).items()) {

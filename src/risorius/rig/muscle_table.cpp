@@ -107,7 +107,7 @@ Eigen::VectorXd MuscleTable::deactivation_s() const {
 }
 
 MuscleTable read_muscle_table(JsonCursor json) {
-    json.allow_keys({"source", "frame", "muscles"});
+    json.allow_keys({"source", "sources", "frame", "muscles"});
     MuscleTable table;
     for (const JsonCursor& item : json.at("muscles").items()) {
         item.allow_keys({"id",
@@ -131,6 +131,7 @@ MuscleTable read_muscle_table(JsonCursor json) {
                          "tonic_rest_activation",
                          "action",
                          "action_units",
+                         "sources",
                          "confidence",
                          "paths"});
         Muscle muscle;

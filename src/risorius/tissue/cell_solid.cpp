@@ -166,6 +166,17 @@ void CellSolid::metric_strain(const Points& vertices, int cell, Mat3 (&strain)[8
         strain[g] = detail::metric_at(now, c.size, g) - detail::metric_at(rest, c.size, g);
 }
 
+Mat3 CellSolid::deformation_gradient(const Points& vertices, int cell) const {
+    const CellMesh::Cell& c = mesh().cells()[static_cast<std::size_t>(cell)];
+    const CellCorners now(c, vertices), rest(c, rest_vertices_);
+    Mat3 tangents = Mat3::Zero(), tangents_at_rest = Mat3::Zero();
+    for (int g = 0; g < 8; ++g) {
+        tangents += 0.125 * detail::tangents_at(now, c.size, g);
+        tangents_at_rest += 0.125 * detail::tangents_at(rest, c.size, g);
+    }
+    return tangents * tangents_at_rest.inverse();
+}
+
 Mat3 CellSolid::inverse_rest_metric(int cell) const {
     const CellMesh::Cell& c = mesh().cells()[static_cast<std::size_t>(cell)];
     const CellCorners rest(c, rest_vertices_);

@@ -59,6 +59,8 @@ class CellSolid : public solve::EnergyTerm {
     double rest_volume() const { return rest_volume_.sum(); }  ///< of the body, m^3
     int inverted_count(const Points& x) const;                 ///< number of cells with V_c <= 0
 
+    /// Returns F at the centre of a cell.
+    Mat3 deformation_gradient(const Points& vertices, int cell) const;
     /// Metric strain dG_ij = G_ij - G0_ij at the eight Gauss points of a cell, m^2. Point g is the one next to corner g.
     void metric_strain(const Points& vertices, int cell, Mat3 (&strain)[8]) const;
     /// C = G0^-1 at the centre of a cell, 1/m^2. C dG / 2 is the Green strain as a mixed tensor.

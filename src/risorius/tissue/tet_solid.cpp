@@ -292,6 +292,19 @@ double TetSolid::signed_volume(const Points& x, int tet) const {
     return edges(x, tets_, tet).determinant() / 6.0;
 }
 
+Mat3 TetSolid::deformation_gradient(const Points& x, int tet) const {
+    return edges(x, tets_, tet) * inverse_[static_cast<std::size_t>(tet)];
+}
+
+Mat3 TetSolid::cauchy_stress_pa(const Points& x, int tet) const {
+    const Mat3 f = deformation_gradient(x, tet);
+    const double j = f.determinant(), bulk = bulk_[tet];
+    if (j == 0) return Mat3::Zero();
+    const double pressure = bulk * (j - 1) + kHardens * bulk * std::min(0.0, j - kCrushed);
+    return mu_[tet] / j * f * (f.transpose() * f - Mat3::Identity()) * f.transpose() +
+           pressure * Mat3::Identity();
+}
+
 int TetSolid::inverted_count(const Points& x) const {
     int count = 0;
     for (int tet = 0; tet < size(); ++tet)

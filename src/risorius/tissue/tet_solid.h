@@ -66,6 +66,9 @@ class TetSolid {
     const Eigen::VectorXd& mu_pa() const { return mu_; }      ///< mu, per tet
     const Eigen::VectorXd& bulk_pa() const { return bulk_; }  ///< K, per tet
     int size() const { return static_cast<int>(tets_.rows()); }
+    Mat3 deformation_gradient(const Points& x, int tet) const;  ///< F
+    /// Returns the Cauchy stress of a tet, Pa, without damping: the derivative of E by F, times F^T / J. Zero when J is 0.
+    Mat3 cauchy_stress_pa(const Points& x, int tet) const;
     int inverted_count(const Points& x) const;          ///< tets with J <= 0
     double volume(const Points& x) const;               ///< signed, m^3
     double min_relative_volume(const Points& x) const;  ///< minimum J; 1 without tets

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Everything that a face consists of. `Face` and its views (statics.h, diagnostics.h, surfaces.h, calibration.h) share one FaceImpl.
+/// Everything that a face consists of. `Face` and its views (statics.h, diagnostics.h, surfaces.h, fields.h, calibration.h) share one FaceImpl.
 #pragma once
 
 #include <array>

@@ -25,7 +25,7 @@ using RunExperiment = void (*)(const JsonCursor& experiment, const RunOptions& o
                                Outcome& outcome);
 
 /// Calls JsonCursor::allow_keys() with the keys `own` of a kind and those that every experiment file may have (format, version,
-/// figure, kind, title, checks).
+/// figure, kind, title, checks, claims, watched).
 void allow_experiment_keys(const JsonCursor& experiment, std::vector<std::string_view> own);
 
 }  // namespace risorius::figures

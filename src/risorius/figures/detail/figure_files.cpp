@@ -137,8 +137,28 @@ Json check_json(const figures::Check& check) {
     json["passes"] = check.passes();
     json["range"] = check.range_from;
     json["published"] = check.published;
-    json["differs"] = check.differs;
     json["note"] = check.note;
+    return json;
+}
+
+Json watched_json(const figures::Check& check) {
+    Json json = check_json(check);
+    for (const char* key : {"range", "published"}) json.erase(key);
+    return json;
+}
+
+Json claim_json(const figures::Claim& claim) {
+    Json json = Json::object();
+    json["says"] = claim.says;
+    json["finds"] = claim.finds;
+    json["verdict"] = name_of(claim.verdict);
+    json["holds"] = claim.holds();
+    if (!claim.measured) return json;
+    json["name"] = claim.name;
+    json["unit"] = claim.unit;
+    json["measured"] = number_json(claim.value);
+    json["low"] = number_json(claim.low);
+    json["high"] = number_json(claim.high);
     return json;
 }
 
@@ -214,6 +234,11 @@ Json figure_json(const figures::FigureResult& figure) {
     json["passes"] = figure.passes();
     json["checks"] = Json::array();
     for (const figures::Check& check : figure.checks) json["checks"].push_back(check_json(check));
+    json["claims"] = Json::array();
+    for (const figures::Claim& claim : figure.claims) json["claims"].push_back(claim_json(claim));
+    json["watched"] = Json::array();
+    for (const figures::Check& check : figure.watched)
+        json["watched"].push_back(watched_json(check));
     json["tables"] = Json::array();
     for (const figures::Table& table : figure.tables)
         json["tables"].push_back({{"file", table.name + ".csv"},

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The result of an experiment: tables, charts, shapes to draw, and checks against published values. Nothing here writes files.
+/// The result of an experiment: tables, charts, shapes to draw, checks, and verdicts on what was published. Nothing here writes files.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
@@ -28,16 +30,36 @@ struct Check {
     std::string unit;
     double measured = 0;
     double low = 0, high = 0;  ///< the accepted range; its ends may be infinite
-    /// The published value in words or numbers; empty when nothing was published
-    std::string published;
-    std::string note;  ///< why the measured value differs from the published one, or what it means
-    /// Where the range comes from: "published", "law" (a law or closed form), "demand" (a requirement on the computation), "own"
-    /// (around the value first measured here); empty when the file does not say.
+    std::string published;     ///< the published value; empty unless the range is around one
+    std::string note;          ///< what the value means
+    /// Where the range comes from: "published", "law" (a law or closed form), "demand" (a requirement on the computation); empty when
+    /// the file does not say, and for watched numbers.
     std::string range_from = "";
-    bool differs = false;  ///< differs from the published value, although it is within the range
 
     bool passes() const { return measured >= low && measured <= high; }
 };
+
+/// What comes of a published claim.
+enum class Verdict {
+    kAgrees,
+    kMissed,   ///< what is measured here contradicts it
+    kUnknown,  ///< nothing can be measured against it: a size or a number was not published
+};
+
+/// A statement of a publication, what is found here, and the verdict. A band says what the claim means in numbers: the verdict is
+/// "agrees" inside of it and "missed" outside, and any other verdict is a fault.
+struct Claim {
+    std::string says, finds;
+    Verdict verdict = Verdict::kAgrees;
+    bool measured = false;  ///< whether there is a band
+    std::string name = {}, unit = {};
+    double value = 0, low = 0, high = 0;
+
+    bool inside() const { return value >= low && value <= high; }
+    bool holds() const { return !measured || inside() == (verdict == Verdict::kAgrees); }
+};
+
+std::string_view name_of(Verdict verdict);  ///< "agrees", "missed", "cannot be known"
 
 /// A deformed object, to be drawn as in the thesis (see registry.h): a transparent surface, with the lines of its grid as wires.
 struct Shape {
@@ -63,12 +85,17 @@ struct FigureResult {
     std::vector<plot::Chart> charts;
     std::vector<Shape> shapes;
     std::vector<Check> checks;
+    std::vector<Claim> claims = {};
+    /// Numbers with a range around the value first measured here, so that a change is noticed. They prove nothing and are not checks.
+    std::vector<Check> watched = {};
     Json record = Json::object();  ///< parameters, steps and costs of the runs that were made
 
     bool passes() const {
-        for (const Check& check : checks)
-            if (!check.passes()) return false;
-        return true;
+        const auto passes = [](const Check& check) { return check.passes(); };
+        return std::all_of(checks.begin(), checks.end(), passes) &&
+               std::all_of(watched.begin(), watched.end(), passes) &&
+               std::all_of(claims.begin(), claims.end(),
+                           [](const Claim& claim) { return claim.holds(); });
     }
 };
 

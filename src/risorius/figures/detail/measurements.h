@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Named measurements of an experiment, and their checks. The accepted ranges and published values are data of the experiment
-/// file.
+/// Named measurements of an experiment, their checks, and the verdicts on what was published. Ranges and published values are data
+/// of the experiment file.
 ///
-///   "checks": [{"measured": "peak_volume_change_percent/3x3x3", "low": 8, "high": 13, "range": "published",
-///               "published": "up to ~10 %", "differs": true, "note": "..."}]
+///   "checks": [{"measured": "sag_m/41", "low": 0.3626, "high": 0.3632, "range": "law", "note": "the catenary: 0.36278 m"}],
+///   "claims": [{"says": "The step falls with the resolution.", "finds": "It grows by a half.", "verdict": "missed",
+///               "measured": "step_s/11x11", "over": "step_s/7x7", "high": 0.9}],
+///   "watched": [{"measured": "steps/11x11", "low": 90, "high": 110}]
+///
+/// With "over", a claim is about the ratio of two measurements.
 #pragma once
 
 #include <string>
@@ -24,6 +28,9 @@ class Measurements {
     /// Reads the "checks" of the experiment file, if any. Throws Error for a name that was not measured; the message lists the
     /// measured ones.
     std::vector<Check> check(const JsonCursor& experiment) const;
+    /// The same for "claims" and "watched".
+    std::vector<Claim> claims(const JsonCursor& experiment) const;
+    std::vector<Check> watched(const JsonCursor& experiment) const;
 
     /// Returns a table with one row per measurement.
     Table table() const;
@@ -33,6 +40,8 @@ class Measurements {
         std::string name, unit;
         double value;
     };
+    const Measurement& named(const JsonCursor& name) const;
+    Check read_check(const JsonCursor& json) const;
     std::vector<Measurement> list_;
 };
 

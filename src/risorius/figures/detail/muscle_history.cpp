@@ -105,6 +105,19 @@ double time_of(const std::vector<MuscleSample>& samples, std::size_t from, doubl
     return kNever;
 }
 
+/// Time after the sample `from` until a quantity has fallen to half of what it is there, interpolated between samples, s.
+double time_until_half(const std::vector<MuscleSample>& samples, std::size_t from,
+                       double MuscleSample::*quantity) {
+    const double height = samples[from].*quantity / 2;
+    for (std::size_t i = from + 1; i < samples.size(); ++i) {
+        const double before = samples[i - 1].*quantity, now = samples[i].*quantity;
+        if (now > height) continue;
+        return samples[i - 1].t_s - samples[from].t_s +
+               (samples[i].t_s - samples[i - 1].t_s) * (height - before) / (now - before);
+    }
+    return kNever;
+}
+
 bool weaker(const MuscleSample& a, const MuscleSample& b) { return a.tension_f0 < b.tension_f0; }
 
 void measure_release(const std::vector<MuscleSample>& samples, double release_s,
@@ -132,6 +145,15 @@ void measure_pulses(const std::vector<MuscleSample>& samples, const Pulses& puls
     measured.add(
         "half_relaxation_s" + of, "s",
         time_of(samples, peak, samples[peak].tension_f0 / 2, /*rising=*/false) - samples[peak].t_s);
+    const auto most =
+        static_cast<std::size_t>(std::max_element(samples.begin(), samples.end(),
+                                                  [](const MuscleSample& a, const MuscleSample& b) {
+                                                      return a.activation < b.activation;
+                                                  }) -
+                                 samples.begin());
+    measured.add("peak_activation" + of, "", samples[most].activation);
+    measured.add("activation_half_s" + of, "s",
+                 time_until_half(samples, most, &MuscleSample::activation));
     if (pulses.count < 2) return;
     // Between the last two pulses
     const double from_s = pulses.start_s(pulses.count - 2), to_s = pulses.start_s(pulses.count - 1);

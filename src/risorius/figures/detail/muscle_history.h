@@ -16,6 +16,7 @@
 /// With "release_s": before_f0/.., least_f0/.. (minimum after the release), t50_s/.., t90_s/.. (time from the release until 50 %
 /// and 90 % of the final force are regained).
 /// With pulses: contraction_s/.. (from the first pulse to the peak), half_relaxation_s/.. (from the peak to half of it),
+/// peak_activation/.., activation_half_s/.. (from the peak of activation to half of it),
 /// fusion/.. (ratio of the minimum to the maximum force in the last interval between pulses; 1 is a smooth tetanus), mean_f0/..
 /// (of that interval). Always: unconverged/<run> (0 or 1).
 #pragma once

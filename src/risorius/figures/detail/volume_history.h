@@ -12,7 +12,9 @@
 /// with equal body, runs, duration and samples share one run. Values are changes since rest, in per cent. The following are
 /// measured per run and grid, for the volume, and with the prefix "sum_" for the sum: peak_percent/<name>/<grid>, peak_time_s/..,
 /// last_percent/.. (mean over the last tenth of the time), settled_s/.. (the time after which the value differs from that mean by
-/// at most 5 % of the peak). In addition: steps/<name>/<grid>, the number of time steps.
+/// at most 5 % of the peak). In addition: steps/<name>/<grid>, the number of time steps, and for each two grids of a run of which one has half the spacing of
+/// the other extrapolated_percent/<name>/<coarse>-<fine>, the limit of last_percent if its error falls with the square of the
+/// spacing.
 #pragma once
 
 #include "risorius/figures/detail/experiment_kind.h"

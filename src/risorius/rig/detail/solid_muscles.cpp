@@ -38,8 +38,8 @@ std::vector<SolidMuscle> read_solid_muscles(JsonCursor json, const MuscleTable& 
             item.fail("a muscle of the face or the jaw",
                       "\"" + id + "\", of the group " + muscle.group);
         if (muscle.paths.empty()) item.fail("a muscle with a path", "\"" + id + "\"");
-        item.allow_keys(
-            {"strength", "width_mm", "thickness_mm", "ends", "cells", "shear_pa", "volume_pa"});
+        item.allow_keys({"strength", "width_mm", "thickness_mm", "ends", "cells", "shear_pa",
+                         "volume_pa", "source"});
         SolidMuscle solid{
             .muscle = id, .width_m = muscle.width_m, .thickness_m = muscle.thickness_m};
         if (const auto v = item.find("strength")) solid.strength = v->number({0, 100});

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "risorius/rig/muscle_force.h"
 #include "risorius/rig/muscle_path.h"
 
 namespace risorius::face {
@@ -40,7 +41,7 @@ JawMuscle placed(const rig::Head& head, const rig::Muscle& muscle, Side side, in
     out.id = muscle.id;
     out.side = side;
     out.column = column;
-    out.f0_n = kJawForceFraction * muscle.force_n * head.size * head.size;
+    out.f0_n = rig::line_force_n(muscle, head.size);
     const rig::MusclePath path =
         side == Side::kLeft ? muscle.paths.front() : rig::mirrored(muscle.paths.front());
     for (const rig::PathPoint& point : path) {

@@ -23,9 +23,6 @@
 
 namespace risorius::face {
 
-/// Factor on the forces of the table, which assume a stress of 40 N/cm2 in all muscles. With the table alone the incisors would bite with
-/// 540 N; with this factor they bite with 350 N. Measured values are 150 to 400 N.
-inline constexpr double kJawForceFraction = 0.65;
 /// Shape of the passive curve of relaxed jaw muscles: the passive force is 1.5 % of F0 at 1.5 times the length (Peck et al. 2000). Stiffer
 /// muscles would not let the jaw open wide.
 inline constexpr double kJawPassiveStrain = 2.0;

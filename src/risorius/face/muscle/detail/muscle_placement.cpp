@@ -6,16 +6,11 @@
 
 #include "risorius/face/anatomy/detail/tissue_locator.h"
 #include "risorius/geom/polyline.h"
+#include "risorius/rig/muscle_force.h"
 
 namespace risorius::face {
 
 namespace {
-
-int bands_of(const rig::Atlas& atlas, const std::string& muscle) {
-    return static_cast<int>(
-        std::count_if(atlas.bands.begin(), atlas.bands.end(),
-                      [&](const rig::MuscleBand& b) { return b.muscle == muscle; }));
-}
 
 // Points too close together would make stiff segments.
 std::vector<Vec3> without_close_points(const std::vector<Vec3>& path, const rig::Head& head) {
@@ -88,11 +83,9 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
                                                                       tissue.outward));
         }
         // Parallel fibres across the width: each point moves sideways along the skin at its own depth
-        const int bands = bands_of(rig.atlas, band.muscle);
+        const int bands = rig::bands_of(rig.atlas, band.muscle);
         const int strands = std::max(
             2, static_cast<int>(std::lround(band.width_m * 1e3 / (bands * kFibreSpacing_mm))));
-        const double force = band.force_n * band.strength * rig.tissue.force_scale * head.size *
-                             head.size / (strands * bands);
         FibreBundle bundle;
         bundle.muscle = band.muscle;
         if (channels.column(band.muscle, Side::kLeft) != channels.column(band.muscle, Side::kRight))
@@ -130,14 +123,18 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
             fibre.first_point = static_cast<int>(out.points.size());
             fibre.point_count = static_cast<int>(points.size());
             fibre.column = column;
-            fibre.f0_n = force;
             fibre.max_speed_hz = muscle->max_speed_hz;
             out.points.insert(out.points.end(), points.begin(), points.end());
             out.fibres.push_back(fibre);
             out.paths.push_back(places);
         }
         bundle.fibre_count = static_cast<int>(out.fibres.size()) - bundle.first_fibre;
-        if (bundle.fibre_count > 0) out.bundles.push_back(bundle);
+        if (bundle.fibre_count == 0) return;
+        // Strands that are too short on this head leave their force to the others
+        for (int f = 0; f < bundle.fibre_count; ++f)
+            out.fibres[static_cast<std::size_t>(bundle.first_fibre + f)].f0_n =
+                rig::fibre_force_n(rig, band, head.size, bundle.fibre_count * bands);
+        out.bundles.push_back(bundle);
     };
     for (const rig::MuscleBand& band : rig.atlas.bands) {
         if (channels.column(band.muscle, Side::kLeft) < 0) continue;

@@ -551,6 +551,13 @@ std::vector<muscle::ChainSet::State> MuscleSolids::chain_states(
     return {};
 }
 
+std::optional<double> MuscleSolids::greatest_force_n(int column) const {
+    for (const Part& part : parts_)
+        if (part.place.column == column)
+            return part.chains->size() * part.chains->properties().f0_n;
+    return std::nullopt;
+}
+
 std::vector<SolidFigures> MuscleSolids::figures(const Points& x,
                                                 const Eigen::VectorXd& activation) const {
     std::vector<SolidFigures> out;

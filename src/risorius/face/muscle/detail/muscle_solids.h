@@ -20,6 +20,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -105,8 +106,13 @@ class MuscleSolids {
     std::vector<muscle::ChainSet::State> chain_states(const std::string& muscle, Side side,
                                                       const Points& x,
                                                       const Eigen::VectorXd& activation) const;
+    /// Returns the maximum isometric force of all chains of the volume muscle of a column, N; std::nullopt for other columns.
+    std::optional<double> greatest_force_n(int column) const;
     /// Returns one entry per part.
     std::vector<SolidFigures> figures(const Points& x, const Eigen::VectorXd& activation) const;
+    /// Returns one entry per cell, part by part.
+    std::vector<SolidCellState> cell_states(const Points& x,
+                                            const Eigen::VectorXd& activation) const;
     double max_volume_error(const Points& x) const;  ///< maximum of |volume / rest volume - 1|
     /// Adds smooth surfaces of all muscles for drawing. place_surfaces() then writes their rows of `vertices`, m.
     void add_surfaces(MuscleSurfaces& surfaces);

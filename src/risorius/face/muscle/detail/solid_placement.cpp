@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "risorius/face/anatomy/detail/jaw_muscles.h"
 #include "risorius/geom/polyline.h"
+#include "risorius/rig/muscle_force.h"
 #include "risorius/rig/muscle_path.h"
 
 namespace risorius::face {
@@ -133,13 +133,6 @@ class Placer {
                              [&](const rig::Muscle& m) { return m.id == solid.muscle; });
     }
 
-    double force_of(const rig::SolidMuscle& solid, const rig::Muscle& muscle) const {
-        // Mimetic muscles are scaled, since tissue holds them back; jaw muscles have the forces of their lines of action
-        const double scale =
-            muscle.group == "mimetic" ? rig_.tissue.force_scale : kJawForceFraction;
-        return muscle.force_n * solid.strength * scale * head_.size * head_.size;
-    }
-
     SolidPart part(const rig::SolidMuscle& solid, const rig::Muscle& muscle, Side side,
                    const tissue::GridShape& grid) const {
         SolidPart part;
@@ -147,7 +140,7 @@ class Placer {
         part.solid = &solid;
         part.side = side;
         part.column = channels_.column(muscle.id, side);
-        part.f0_n = force_of(solid, muscle);
+        part.f0_n = rig::solid_force_n(rig_, solid, muscle, head_.size);
         part.grid = grid;
         return part;
     }

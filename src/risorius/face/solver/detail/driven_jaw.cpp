@@ -127,6 +127,13 @@ std::optional<muscle::ChainSet::State> DrivenJaw::muscle_state(int column, const
     return std::nullopt;
 }
 
+std::optional<double> DrivenJaw::greatest_force_n(int column) const {
+    if (!dynamics_) return std::nullopt;
+    for (const JawMuscle& muscle : dynamics_->muscles().list())
+        if (muscle.column == column) return muscle.f0_n;
+    return std::nullopt;
+}
+
 void DrivenJaw::report(const JawVector& q, FacePose& pose) const {
     if (!dynamics_) return;
     pose.tooth_force_n = dynamics_->joint().tooth_force_n(q);

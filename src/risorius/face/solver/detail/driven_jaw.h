@@ -64,6 +64,10 @@ class DrivenJaw {
     std::optional<muscle::ChainSet::State> muscle_state(int column, const JawVector& q,
                                                         double activation) const;
 
+    /// Returns the maximum isometric force of the jaw muscle of a column, N. Returns std::nullopt for other columns and while channels
+    /// place the jaw.
+    std::optional<double> greatest_force_n(int column) const;
+
     /// Writes tooth force and opening into the pose if muscles move the jaw.
     void report(const JawVector& q, FacePose& pose) const;
 
