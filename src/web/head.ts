@@ -200,7 +200,13 @@ export class Head {
     this.show(this.sight);
   }
 
-  get muscles(): { mesh: THREE.Mesh; name: string }[] {
+  /// Lets a muscle shine that the pointer is on.
+  highlight(name: string | null): void {
+    for (const one of this.muscleMeshes)
+      (one.mesh.material as THREE.MeshStandardMaterial).emissive.set(one.name === name ? 0x2a4a78 : 0x000000);
+  }
+
+  get muscles(): { mesh: THREE.Mesh; name: string; column: number }[] {
     return this.sight === "muscles" ? this.muscleMeshes : [];
   }
 

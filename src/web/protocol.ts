@@ -73,6 +73,7 @@ export interface DocumentMessage {
   redo: boolean;
   duration_s: number;
   curves: Record<string, number[]>;
+  recorded?: Record<string, number[]>; ///< muscle activity that was recorded (EMG), as excitation
 }
 
 export type Vec = [number, number, number];
@@ -142,6 +143,7 @@ export interface Muscles {
 export interface Pose {
   step: number;
   t_s: number;
+  head: { turn: [number, number, number, number]; at_m: Vec }; ///< quaternion x, y, z, w; from the head at rest
   vertices: Int16Array;
   drive: Int8Array;
   activation: Int8Array;
@@ -190,7 +192,9 @@ function decodePose(data: ArrayBuffer): Pose {
     const rows = view.getUint32(at, true);
     muscles = new Int16Array(data.slice(at + 4, at + 4 + 6 * rows));
   }
-  return { step: view.getUint32(4, true), t_s: view.getFloat64(8, true), vertices, drive, activation, strain, muscles };
+  const float = (index: number) => view.getFloat32(16 + 4 * index, true);
+  const head: Pose["head"] = { turn: [float(0), float(1), float(2), float(3)], at_m: [float(4), float(5), float(6)] };
+  return { step: view.getUint32(4, true), t_s: view.getFloat64(8, true), head, vertices, drive, activation, strain, muscles };
 }
 
 export function decode(data: ArrayBuffer): Binary {

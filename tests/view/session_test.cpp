@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -39,6 +42,43 @@ Json state_of(const Session& session) { return Json::parse(session.state()); }
 Vec3 point_of(const Session& session, int vertex) {
     const Points all = session.drawn_scene().rest;
     return all.row(vertex).transpose();
+}
+
+// Nothing else drives the muscle: what is shown of the recording is what drives it.
+TEST(Session, ShowsRecordedActivityAsTheFaceGetsIt) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "studio_emg.tsv";
+    {
+        std::ofstream out(file);
+        out << "t\tZYG\n";
+        for (int i = 0; i <= 50; ++i) out << i / 100.0 << '\t' << 2.0 * std::min(i, 25) << '\n';
+    }
+    Json script = smile();
+    script["channels"] = Json::object();
+    script["events"] = Json::array();
+    script["emg"] = {{"file", file.string()},
+                     {"time_column", "t"},
+                     {"envelope", true},
+                     {"maximum", {{"ZYG", 100}}},
+                     {"channels", {{"zygomaticus_major.l", "ZYG"}}}};
+    const SessionInputs made = inputs(script);
+    Session session(made);
+    const Json document = Json::parse(session.document());
+    ASSERT_EQ(document["recorded"].size(), 1u);
+    const auto samples = document["recorded"]["zygomaticus_major.l"].get<std::vector<double>>();
+    const auto names = Json::parse(session.welcome())["columns"].get<std::vector<std::string>>();
+    const auto column = std::find(names.begin(), names.end(), "zygomaticus_major.l");
+    ASSERT_NE(column, names.end());
+    const auto read = made.read(JsonCursor::from_json(script, "script.json"));
+    const track::Timeline timeline(read, rig::adult().rig.channels());
+    const std::size_t last = samples.size() - 1;
+    for (std::size_t i = 0; i < last; i += 40)
+        EXPECT_NEAR(samples[i],
+                    timeline.at(0.5 * static_cast<double>(i) / static_cast<double>(last))
+                        .excitation[column - names.begin()],
+                    1e-4)
+            << i;
+    EXPECT_NEAR(*std::max_element(samples.begin(), samples.end()), 0.5, 1e-3);
+    EXPECT_TRUE(Json::parse(Session(inputs(smile())).document())["recorded"].empty());
 }
 
 TEST(Session, PlaysWhatTheScriptIs) {

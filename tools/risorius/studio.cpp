@@ -119,11 +119,14 @@ void Studio::open(const fs::path& file) {
                 script.at("rig").fail("the rig that is open; open the script anew for another");
             track::ScriptDescription read = track::read_script(
                 script, files->rig.channels(), files->rig.facs, files->rig.expressions);
-            talk::add_to_script(
-                talk::plan_speech(read.says, read.header, *files, inputs_.mouth_poses()), read);
+            const talk::PlannedSpeech speech =
+                talk::plan_speech(read.says, read.header, *files, inputs_.mouth_poses());
+            talk::add_to_script(speech, read);
+            planned_ = sound_of(speech);
             return read;
         }});
     script_ = std::move(opened);
+    sound_ = planned_;
     pictures_.clear();
     scene_ = std::make_shared<const std::string>(script_.session->scene());
 }
@@ -176,6 +179,7 @@ void Studio::greet(Page& page) {
     page.peer->send_text(json_text(welcome));
     page.peer->send_binary(scene_);
     page.peer->send_text(script_.session->document());
+    send_sound(page);
     for (const auto& picture : pictures_) page.peer->send_binary(picture);
     page.credit = kFirstCredit;
     pose_waits_ = true;
@@ -198,6 +202,19 @@ void Studio::closed(serve::Peer& peer) {
         script_.session->receive(json_text(Json{{"type", "pull_end"}, {"pull", pull["pull"]}}));
     if (!pages_.empty())
         pages_.front().peer->send_text(json_text(Json{{"type", "steers"}, {"steers", true}}));
+}
+
+void Studio::send_sound(const Page& page) const {
+    page.peer->send_text(sound_.message);
+    if (sound_.wav) page.peer->send_binary(sound_.wav);
+}
+
+/// The document, and what it says when that has changed.
+void Studio::tell_document(const std::string& document) {
+    tell_all(document);
+    if (same_sound(planned_, sound_)) return;
+    sound_ = planned_;
+    for (const Page& page : pages_) send_sound(page);
 }
 
 void Studio::tell_all(const std::string& message) {
@@ -247,7 +264,7 @@ void Studio::text(serve::Peer& peer, const std::string& message) {
                 peer.send_binary(std::make_shared<const std::string>(script_.session->muscles()));
             for (const std::string& reply : script_.session->receive(message))
                 if (json_or_null(reply)["type"] == "document")
-                    tell_all(reply);
+                    tell_document(reply);
                 else
                     peer.send_text(reply);
             pose_waits_ = true;
@@ -276,15 +293,12 @@ void Studio::say(serve::Peer& peer, const JsonCursor& message) {
     for (const std::string& reply : replies) {
         const bool document = json_or_null(reply)["type"] == "document";
         if (document)
-            tell_all(reply);
+            tell_document(reply);
         else
             peer.send_text(reply);
         done = done && document;
     }
     if (!done) return;
-    tell_all(json_text(Json{{"type", "sound"}, {"start_s", said.start_s}}));
-    const auto sound = std::make_shared<const std::string>(said.wav);
-    for (const Page& page : pages_) page.peer->send_binary(sound);
     script_.session->receive(json_text(Json{{"type", "seek"}, {"t_s", at_s}}));
     script_.session->receive(json_text(Json{{"type", "play"}}));
     pose_waits_ = true;

@@ -13,6 +13,7 @@
 #include "risorius/animate/render_inputs.h"
 #include "risorius/serve/web_server.h"
 #include "risorius/view/session.h"
+#include "tools/risorius/studio_sound.h"
 
 namespace risorius::cli {
 
@@ -50,6 +51,8 @@ class Studio {
     void tick();
     void greet(Page& page);
     void tell_all(const std::string& message);
+    void tell_document(const std::string& document);
+    void send_sound(const Page& page) const;
     void send_pose(bool always);
     void save(const JsonCursor& message);
     void say(serve::Peer& peer, const JsonCursor& message);
@@ -63,6 +66,7 @@ class Studio {
     std::filesystem::path folder_;  ///< the project: canonical
     animate::RenderInputs inputs_;
     OpenScript script_;
+    ScriptSound planned_, sound_;  ///< of the script that was read last; what the pages have
     std::vector<Page> pages_;
     std::vector<std::shared_ptr<const std::string>> pictures_;
     std::shared_ptr<const std::string> scene_;
