@@ -11,6 +11,7 @@ import type { Sight } from "./head.js";
 import { Hover } from "./hover.js";
 import { Keeper } from "./keeper.js";
 import type { Edit } from "./key_edits.js";
+import { NewHead } from "./newhead.js";
 import type { Binary, DocumentMessage, Pose, Scene, State, Vec, Welcome } from "./protocol.js";
 import { SpeechSound } from "./speech.js";
 import { Stage } from "./stage.js";
@@ -98,6 +99,8 @@ const speech = new SpeechSound();
 let said: Speech | null = null;
 
 const keeper = new Keeper({ edit, show: takeDocument, say });
+
+const newHead = new NewHead({ ask: (message) => engine.ask(message), open: (path) => engine.send({ type: "open", path }) });
 
 function edit(edits: Edit[], gesture?: string): void {
   if (engine.open) engine.send(gesture ? { type: "edit", edits, gesture } : { type: "edit", edits });
@@ -216,6 +219,9 @@ function takeBinary(message: Binary): void {
         if (said) timeline.useSpeech((said = { ...said, ...sound }));
       });
       break;
+    case "mesh":
+      newHead.useMesh(message.mesh);
+      break;
     case "muscles":
       stage.head?.useMuscles(message.muscles);
       break;
@@ -231,7 +237,7 @@ function takeBinary(message: Binary): void {
 }
 
 function takeOther(message: Record<string, any>): void {
-  if (message.type === "error") say(String(message.message));
+  if (message.type === "error" && !newHead.useError(String(message.message))) say(String(message.message));
   if (message.type === "saved") {
     byId("file-name").textContent = message.path;
     if (welcome) {
@@ -248,6 +254,9 @@ function takeOther(message: Record<string, any>): void {
   }
   if (message.type === "steers" && welcome) welcome.steers = true;
   if (message.type === "steers") say("This page steers now.", true);
+  if (message.type === "meshes") newHead.useMeshes(message.files);
+  if (message.type === "landmarks_saved") newHead.useSaved(message.path);
+  if (message.type === "fit") newHead.useFit(message);
   if (message.type === "files") showFiles(message.scripts, message.samples);
 }
 
@@ -421,6 +430,7 @@ on("undo", "click", undo);
 on("redo", "click", () => engine.send({ type: "redo" }));
 on("save", "click", save);
 on("open", "click", () => engine.send({ type: "files" }));
+on("new-head", "click", () => newHead.show(welcome?.folder ?? ""));
 on("help", "click", () => byId<HTMLDialogElement>("help-dialog").showModal());
 on("copy", "click", download);
 on("tool-turn", "click", () => setHand(false));
@@ -527,5 +537,7 @@ window.addEventListener("beforeunload", (event) => {
   sounds: () => speech.sounds,
   scrubbed: () => speech.scrubbed,
   said: () => said,
+  newHead: () => newHead.debug,
+  ask: (message: Record<string, unknown>) => engine.ask(message),
   cut: (wait_ms: number) => engine.cut(wait_ms),
 };

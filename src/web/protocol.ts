@@ -140,6 +140,15 @@ export interface Muscles {
   rest: Float32Array;
 }
 
+/// A mesh that landmarks are put on.
+export interface MeshFrame {
+  file: string;
+  rig: string; ///< where its rig is written
+  vertices: Float32Array;
+  triangles: Uint32Array;
+  groups: { name: string; from: number; count: number }[]; ///< ranges of triangles
+}
+
 export interface Pose {
   step: number;
   t_s: number;
@@ -155,6 +164,7 @@ const enum Kind {
   scene = 2,
   picture = 3,
   muscles = 4,
+  mesh = 5,
   sound = 0x46464952, // "RIFF": a WAV file as it is
 }
 
@@ -163,6 +173,7 @@ export type Binary =
   | { kind: "scene"; scene: Scene }
   | { kind: "picture"; picture: Picture }
   | { kind: "muscles"; muscles: Muscles }
+  | { kind: "mesh"; mesh: MeshFrame }
   | { kind: "sound"; bytes: ArrayBuffer };
 
 interface Place {
@@ -223,5 +234,6 @@ export function decode(data: ArrayBuffer): Binary {
     const parts = head.parts.map((p: Record<string, any>) => ({ ...p, triangles: u32(p.triangles) }));
     return { kind: "muscles", muscles: { parts, rest: f32(head.rest) } };
   }
+  if (kind === Kind.mesh) return { kind: "mesh", mesh: { ...head, vertices: f32(head.vertices), triangles: u32(head.triangles) } };
   throw new Error(`a message of an unknown kind ${kind}`);
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "face/adult_face.h"
 #include "risorius/core/json_text.h"
 #include "risorius/track/timeline.h"
+#include "risorius/view/scene_frame.h"
 
 namespace risorius::view {
 namespace {
@@ -79,6 +81,33 @@ TEST(Session, ShowsRecordedActivityAsTheFaceGetsIt) {
             << i;
     EXPECT_NEAR(*std::max_element(samples.begin(), samples.end()), 0.5, 1e-3);
     EXPECT_TRUE(Json::parse(Session(inputs(smile())).document())["recorded"].empty());
+}
+
+// A quad and a triangle: three triangles in two groups, for the page that landmarks are put on.
+TEST(SceneFrame, MeshHasItsGroupsAsRangesOfTriangles) {
+    geom::PolygonMesh mesh;
+    mesh.positions.resize(5, 3);
+    mesh.positions << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0.5;
+    mesh.face_begin = {0, 3, 7};
+    mesh.corner_vertex = {1, 4, 2, 0, 1, 2, 3};
+    mesh.face_group = {1, 0};
+    mesh.group_names = {"skin", "eye"};
+    const std::string bytes = encode_mesh(mesh, "a/b.obj", "a/b.rig.json");
+    std::uint32_t numbers[2];
+    std::memcpy(numbers, bytes.data(), sizeof numbers);
+    EXPECT_EQ(numbers[0], 5u);
+    const Json head = Json::parse(bytes.substr(8, numbers[1]));
+    EXPECT_EQ(head["file"], "a/b.obj");
+    EXPECT_EQ(head["rig"], "a/b.rig.json");
+    EXPECT_EQ(head["groups"], Json::parse(R"([{"name": "skin", "from": 0, "count": 2},
+                                              {"name": "eye", "from": 2, "count": 1}])"));
+    const std::size_t data = 8 + numbers[1];
+    float last[3];
+    std::memcpy(last, bytes.data() + data + head["vertices"]["at"].get<std::size_t>() + 48, 12);
+    EXPECT_EQ(last[2], 0.5f);
+    std::uint32_t eye[3];
+    std::memcpy(eye, bytes.data() + data + head["triangles"]["at"].get<std::size_t>() + 24, 12);
+    EXPECT_EQ(std::vector<std::uint32_t>(eye, eye + 3), (std::vector<std::uint32_t>{1, 4, 2}));
 }
 
 TEST(Session, PlaysWhatTheScriptIs) {

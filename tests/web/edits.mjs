@@ -4,6 +4,7 @@
 //   node edits.mjs RISORIUS PACKAGES SOURCE_FOLDER
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 
 const [, packages, source] = process.argv.slice(2);
@@ -151,6 +152,79 @@ test("straight samples go through the keys", () => {
   const at = (track) => scripts.straightSamples(track, 2, 5);
   assert.deepEqual(at({ keys: [[0.5, 0], [1.5, 1]] }), [0, 0, 0.5, 1, 1]);
   assert.deepEqual(at({ keys: [[0.5, 0], [1.5, 1]], interpolation: "step" }), [0, 0, 0, 1, 1]);
+});
+
+// Landmarks of a new head, with the adult, whose landmarks were placed with it. Its mesh is in mm.
+
+const model = await load("landmark_model");
+const vertices = readFileSync(join(source, "models/adult/head.obj"), "utf8").split("\n").filter((line) => line.startsWith("v ")).map((line) => line.split(" ").slice(1, 4).map(Number));
+const adult = Object.fromEntries(Object.entries(JSON.parse(readFileSync(join(source, "models/adult/landmarks.json"), "utf8")).landmarks).map(([id, { vertex }]) => [id, vertices[vertex]]));
+const far = (a, b) => Math.hypot(...a.map((one, k) => one - b[k]));
+const snap = (p) => vertices.reduce((best, v) => (far(v, p) < far(best, p) ? v : best));
+const median = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)];
+
+test("a similarity is found again from its points", () => {
+  const next = random(7);
+  for (let round = 0; round < 20; round++) {
+    const points = Array.from({ length: 6 }, () => [next() - 0.5, next() - 0.5, next() - 0.5]);
+    const [a, b, s] = [6 * next(), 6 * next(), 0.1 + 10 * next()];
+    const turned = ([x, y, z]) => {
+      const [u, v] = [Math.cos(a) * x - Math.sin(a) * y, Math.sin(a) * x + Math.cos(a) * y];
+      return [s * u + 3, s * (Math.cos(b) * v - Math.sin(b) * z) - 1, s * (Math.sin(b) * v + Math.cos(b) * z) + 2];
+    };
+    const found = model.similarity(points, points.map(turned));
+    for (const p of points) assert.ok(far(found(p), turned(p)) < 1e-6 * s, `round ${round}: ${far(found(p), turned(p))}`);
+  }
+});
+
+test("seven landmarks propose the other thirteen of the adult", () => {
+  const one = new model.LandmarkModel(snap);
+  for (const id of ["prn", "n", "me", "ex_l", "ex_r", "ch_l", "ch_r"]) one.put(id, adult[id], false);
+  assert.equal(one.propose(model.required), 13);
+  assert.deepEqual(one.missing, []);
+  const errors = model.required.filter((id) => one.places[id].found === "proposed").map((id) => far(one.places[id].at, adult[id]));
+  console.log(`      proposed landmarks: median ${median(errors).toFixed(1)} mm, largest ${Math.max(...errors).toFixed(1)} mm`);
+  assert.ok(median(errors) < 5 && Math.max(...errors) < 15, `${errors.map((e) => e.toFixed(1))}`);
+});
+
+test("the partner on the other side is proposed by a mirror", () => {
+  const one = new model.LandmarkModel(snap);
+  for (const id of ["prn", "n", "me", "sn"]) one.put(id, adult[id], true);
+  one.put("ch_l", adult.ch_l, true);
+  assert.equal(one.places.ch_r.found, "mirrored");
+  // The midline alone says little about the plane; a pair says it all.
+  const first = far(one.places.ch_r.at, adult.ch_r);
+  one.put("ch_r", adult.ch_r, true);
+  const errors = ["ex", "en", "ps", "pi", "t"].map((id) => {
+    one.put(`${id}_l`, adult[`${id}_l`], true);
+    return far(one.places[`${id}_r`].at, adult[`${id}_r`]);
+  });
+  console.log(`      mirrored: ${first.toFixed(1)} mm from the midline alone, then at most ${Math.max(...errors).toFixed(1)} mm`);
+  assert.ok(first < 12 && Math.max(...errors) < 3, `${first} ${errors}`);
+  // A partner that a person has placed stays.
+  one.put("ch_l", adult.ex_l, true);
+  assert.deepEqual(one.places.ch_r.at, adult.ch_r);
+});
+
+test("landmarks: 300 random changes undone and done again", () => {
+  const next = random(3);
+  const one = new model.LandmarkModel(snap);
+  one.put("n", adult.n, false);
+  const start = structuredClone(one.places);
+  const states = [start];
+  const ids = model.required;
+  for (let i = 0; i < 150; i++) {
+    const id = ids[Math.floor(next() * ids.length)];
+    if (next() < 0.2) one.remove(id);
+    else one.put(id, vertices[Math.floor(next() * vertices.length)], false);
+    if (JSON.stringify(one.places) !== JSON.stringify(states[states.length - 1])) states.push(structuredClone(one.places));
+  }
+  for (let i = states.length - 2; i >= 0; i--) {
+    while (JSON.stringify(one.places) !== JSON.stringify(states[i])) assert.ok(one.undo());
+  }
+  assert.deepEqual(one.places, start);
+  while (one.redo());
+  assert.deepEqual(one.places, states[states.length - 1]);
 });
 
 process.exit(failed ? 1 : 0);

@@ -92,6 +92,7 @@ Studio::Studio(const fs::path& file, const std::string& quality) : quality_(qual
     const fs::path given = file.empty() ? data_folder() / "rigs" / "adult" / "rig.json" : file;
     const fs::path place = file.empty() ? fs::current_path() : fs::absolute(file).parent_path();
     folder_ = fs::weakly_canonical(place);
+    head_ = std::make_unique<StudioHead>(folder_);
     open(given);
 }
 
@@ -141,6 +142,7 @@ void Studio::run(serve::WebServer& server, const std::function<bool()>& stopped)
     make_pictures(server);
     server.run(handler, [&] { return stopped() || idle_ticks_ > kTicksWithoutPage; });
     painter_.reset();
+    head_->finish();
     if (script_.session->dirty()) write_recovery();
 }
 
@@ -248,6 +250,8 @@ void Studio::text(serve::Peer& peer, const std::string& message) {
             save(cursor);
         } else if (is("say")) {
             say(peer, cursor);
+        } else if (is("meshes") || is("mesh") || is("save_landmarks") || is("fit")) {
+            new_head(peer, type.get<std::string>(), cursor);
         } else if (is("open")) {
             const auto sample = cursor.find("sample");
             const fs::path file = sample ? data_folder() / "samples" /
@@ -302,6 +306,19 @@ void Studio::say(serve::Peer& peer, const JsonCursor& message) {
     script_.session->receive(json_text(Json{{"type", "seek"}, {"t_s", at_s}}));
     script_.session->receive(json_text(Json{{"type", "play"}}));
     pose_waits_ = true;
+}
+
+void Studio::new_head(serve::Peer& peer, const std::string& type, const JsonCursor& message) {
+    if (type == "meshes") return peer.send_text(head_->meshes());
+    if (type == "mesh")
+        return peer.send_binary(std::make_shared<const std::string>(head_->mesh(message)));
+    message.allow_keys({"type", "id", "landmarks", "replace", "quick"});
+    const fs::path file = head_->write_landmarks(message);
+    const std::string name = file.lexically_proximate(folder_).generic_string();
+    tell_all(json_text(Json{{"type", "landmarks_saved"}, {"path", name}}));
+    if (type != "fit") return;
+    head_->fit(message, file, *server_, [this](const std::string& text) { tell_all(text); });
+    tell_all(json_text(Json{{"type", "fit"}, {"state", "running"}}));
 }
 
 void Studio::tick() {

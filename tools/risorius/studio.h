@@ -13,6 +13,7 @@
 #include "risorius/animate/render_inputs.h"
 #include "risorius/serve/web_server.h"
 #include "risorius/view/session.h"
+#include "tools/risorius/studio_head.h"
 #include "tools/risorius/studio_sound.h"
 
 namespace risorius::cli {
@@ -56,6 +57,7 @@ class Studio {
     void send_pose(bool always);
     void save(const JsonCursor& message);
     void say(serve::Peer& peer, const JsonCursor& message);
+    void new_head(serve::Peer& peer, const std::string& type, const JsonCursor& message);
     std::string files() const;
     void write_recovery() const;
     void make_pictures(serve::WebServer& server);
@@ -65,6 +67,7 @@ class Studio {
     std::string quality_;
     std::filesystem::path folder_;  ///< the project: canonical
     animate::RenderInputs inputs_;
+    std::unique_ptr<StudioHead> head_;
     OpenScript script_;
     ScriptSound planned_, sound_;  ///< of the script that was read last; what the pages have
     std::vector<Page> pages_;
