@@ -219,6 +219,11 @@ function takeBinary(message: Binary): void {
         if (said) timeline.useSpeech((said = { ...said, ...sound }));
       });
       break;
+    case "skull":
+      stage.head?.useSkull(message.skull);
+      if (pose) stage.take(pose);
+      write("busy", "");
+      break;
     case "mesh":
       newHead.useMesh(message.mesh);
       break;
@@ -286,7 +291,8 @@ const engine = new RemoteEngine(location.hash.slice(1), {
 function setSight(sight: Sight): void {
   byId<HTMLSelectElement>("sight").value = sight;
   stage.show(sight);
-  engine.send({ type: "sights", strain: sight === "strain", muscles: sight === "muscles" });
+  engine.send({ type: "sights", strain: sight === "strain", muscles: sight === "muscles", skull: sight === "skull" });
+  if (sight === "skull" && stage.head && !stage.head.hasSkull) say("The bones are being estimated. This takes some seconds.", true);
   const legend = byId("legend");
   legend.hidden = sight !== "strain" && sight !== "muscles";
   if (legend.hidden) return;
@@ -538,6 +544,7 @@ window.addEventListener("beforeunload", (event) => {
   scrubbed: () => speech.scrubbed,
   said: () => said,
   newHead: () => newHead.debug,
+  mandible: (at: Vec) => stage.head?.mandiblePoint(at)?.toArray() ?? null,
   ask: (message: Record<string, unknown>) => engine.ask(message),
   cut: (wait_ms: number) => engine.cut(wait_ms),
 };

@@ -102,6 +102,7 @@ export class NewHead {
   private put(at: Vec): void {
     const moved = this.model?.places[this.chosen]?.found === "placed";
     this.do(() => this.model!.put(this.chosen, at, this.mirror));
+    this.tell("");
     if (!moved) this.next();
   }
 

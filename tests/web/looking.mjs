@@ -109,4 +109,26 @@ await test("a second view shows the face from the side, and can be pulled", asyn
   await until(page, () => document.querySelector("#second").hidden);
 });
 
+await test("the skull shows through the skin, and its mandible opens with the jaw", async () => {
+  await page.keyboard.press("Home");
+  await page.evaluate(() => window.studio.ask({ type: "override", channel: "jaw_open", value: 0 }));
+  await page.locator("#sight").selectOption("skull");
+  await until(page, () => window.studio.mandible([0, -0.1, 0.08]) !== null);
+  // The chin, and a point near the joints, as the head has them at rest
+  const points = () => page.evaluate(() => ["me", "t_l"].map((id) => window.studio.mandible(window.studio.scene().landmarks[id])));
+  await until(page, () => window.studio.state().resting);
+  await page.waitForTimeout(300);
+  const closed = await points();
+  await page.evaluate(() => window.studio.ask({ type: "override", channel: "jaw_open", value: 0.8 }));
+  await until(page, () => window.studio.state().resting && window.studio.state().overrides.jaw_open === 0.8);
+  await page.waitForTimeout(300);
+  const open = await points();
+  const down_mm = [0, 1].map((i) => 1e3 * (closed[i][1] - open[i][1]));
+  assert.ok(down_mm[0] > 12 && down_mm[0] < 60, `the chin goes down by ${down_mm[0]} mm`);
+  assert.ok(Math.abs(down_mm[1]) < down_mm[0] / 2, `at the ear it is ${down_mm[1]} mm`);
+  await page.waitForTimeout(1500);
+  await shot(page, "skull");
+  await page.locator("#sight").selectOption("skin");
+});
+
 await end();

@@ -12,6 +12,7 @@
 #include "risorius/core/input_log.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
+#include "risorius/face/view/skull.h"
 #include "risorius/render/offscreen_view.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/talk/say_edit.h"
@@ -126,6 +127,8 @@ void Studio::open(const fs::path& file) {
             planned_ = sound_of(speech);
             return read;
         }});
+    bones_.reset();  // waits: the bones are those of the session that goes
+    skull_.reset();
     script_ = std::move(opened);
     sound_ = planned_;
     pictures_.clear();
@@ -142,6 +145,7 @@ void Studio::run(serve::WebServer& server, const std::function<bool()>& stopped)
     make_pictures(server);
     server.run(handler, [&] { return stopped() || idle_ticks_ > kTicksWithoutPage; });
     painter_.reset();
+    bones_.reset();
     head_->finish();
     if (script_.session->dirty()) write_recovery();
 }
@@ -165,6 +169,32 @@ void Studio::make_pictures(serve::WebServer& server) {
         });
 }
 
+// The bones take seconds as well.
+void Studio::make_skull() {
+    if (skull_) return send_skull();
+    if (bones_) return;
+    bones_ = std::make_unique<std::jthread>([this, of = script_.session.get()] {
+        std::shared_ptr<const std::string> skull;
+        try {
+            skull = std::make_shared<const std::string>(
+                view::encode_skull(face::estimate_skull(of->head(), of->rig())));
+        } catch (const std::exception&) {
+            return;  // a head whose bones cannot be told has none here
+        }
+        server_->post([this, skull, of] {
+            if (script_.session.get() != of) return;
+            skull_ = skull;
+            send_skull();
+        });
+    });
+}
+
+void Studio::send_skull() {
+    for (Page& page : pages_)
+        if (page.wants_skull && !std::exchange(page.has_skull, true))
+            page.peer->send_binary(skull_);
+}
+
 Studio::Page* Studio::page_of(const serve::Peer& peer) {
     const auto found = std::find_if(pages_.begin(), pages_.end(),
                                     [&](const Page& page) { return page.peer == &peer; });
@@ -172,7 +202,7 @@ Studio::Page* Studio::page_of(const serve::Peer& peer) {
 }
 
 void Studio::greet(Page& page) {
-    page.has_muscles = page.wants_muscles = false;
+    page.has_muscles = page.wants_muscles = page.wants_skull = page.has_skull = false;
     Json welcome = json_or_null(script_.session->welcome());
     welcome["steers"] = page.peer == pages_.front().peer;
     welcome["folder"] = folder_.string();
@@ -263,6 +293,10 @@ void Studio::text(serve::Peer& peer, const std::string& message) {
             make_pictures(*server_);
         } else {
             if (is("sights")) page->wants_muscles = field("muscles") == Json(true);
+            if (is("sights") && field("skull") == Json(true)) {
+                page->wants_skull = true;
+                make_skull();
+            }
             if (page->wants_muscles &&
                 !std::exchange(page->has_muscles, page->wants_muscles || page->has_muscles))
                 peer.send_binary(std::make_shared<const std::string>(script_.session->muscles()));

@@ -43,6 +43,7 @@ class Studio {
         int credit = 0;  ///< poses that the page is ready for
         bool has_muscles = false;
         bool wants_muscles = false;
+        bool wants_skull = false, has_skull = false;
     };
 
     void open(const std::filesystem::path& file);
@@ -60,6 +61,8 @@ class Studio {
     void new_head(serve::Peer& peer, const std::string& type, const JsonCursor& message);
     std::string files() const;
     void write_recovery() const;
+    void make_skull();
+    void send_skull();
     void make_pictures(serve::WebServer& server);
     Page* page_of(const serve::Peer& peer);
     std::filesystem::path in_project(const JsonCursor& name) const;
@@ -74,7 +77,8 @@ class Studio {
     std::vector<std::shared_ptr<const std::string>> pictures_;
     std::shared_ptr<const std::string> scene_;
     serve::WebServer* server_ = nullptr;
-    std::unique_ptr<std::jthread> painter_;
+    std::unique_ptr<std::jthread> painter_, bones_;
+    std::shared_ptr<const std::string> skull_;  ///< null: not wanted yet, or being estimated
     bool pose_waits_ = false, ever_seen_ = false;
     long idle_ticks_ = 0;
     double step_ms_ = 0;

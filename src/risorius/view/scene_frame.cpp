@@ -16,7 +16,8 @@ namespace risorius::view {
 
 namespace {
 
-constexpr std::uint32_t kSceneKind = 2, kPictureKind = 3, kMusclesKind = 4, kMeshKind = 5;
+constexpr std::uint32_t kSceneKind = 2, kPictureKind = 3, kMusclesKind = 4, kMeshKind = 5,
+                        kSkullKind = 6;
 
 const char* name_of(render::Material material) {
     switch (material) {
@@ -206,6 +207,21 @@ std::string encode_muscles(const face::MuscleSurfaces& surfaces) {
     const Json head{
         {"parts", parts}, {"rest", arrays.add(surfaces.rest)}, {"tendon", arrays.add(tendon)}};
     return arrays.message(kMusclesKind, head);
+}
+
+std::string encode_skull(const face::Skull& skull) {
+    Arrays arrays;
+    const auto bone = [&](const face::BoneSurface& surface) {
+        std::vector<std::uint32_t> triangles;
+        for (long f = 0; f < surface.triangles.rows(); ++f)
+            for (int k = 0; k < 3; ++k)
+                triangles.push_back(static_cast<std::uint32_t>(surface.triangles(f, k)));
+        const Json vertices = arrays.add(surface.vertices);
+        return Json{{"vertices", vertices}, {"triangles", arrays.add(triangles)}};
+    };
+    Json head{{"cranium", bone(skull.cranium)}};
+    head["mandible"] = bone(skull.mandible);
+    return arrays.message(kSkullKind, head);
 }
 
 std::string encode_mesh(const geom::PolygonMesh& mesh, const std::string& file,
