@@ -29,6 +29,7 @@ namespace {
 constexpr long kTicksWithoutPage = 60 * 60;  // a minute
 constexpr int kFirstCredit = 2;
 constexpr std::size_t kMostWaiting = 8;  // messages; a page that does not read gets no poses
+constexpr double kBoneStep_mm = 2.5;     // coarser than in videos: it comes sooner
 constexpr int kSkinPicture_px = 1024, kPartPicture_px = 256;
 
 Json new_script(const fs::path& rig) {
@@ -177,7 +178,7 @@ void Studio::make_skull() {
         std::shared_ptr<const std::string> skull;
         try {
             skull = std::make_shared<const std::string>(
-                view::encode_skull(face::estimate_skull(of->head(), of->rig())));
+                view::encode_skull(face::estimate_skull(of->head(), of->rig(), kBoneStep_mm)));
         } catch (const std::exception&) {
             return;  // a head whose bones cannot be told has none here
         }

@@ -89,7 +89,7 @@ fs::path StudioHead::write_landmarks(const JsonCursor& message) const {
     ask_to_replace(message, file);
     const ReadingFormerOutput may_be_replaced;
     OutputSet outputs(file.parent_path(), OutputSet::Then::kRunGoesOn);
-    report::write_text(outputs.file(file), written.dump(2) + "\n");
+    report::write_text(outputs.file(file), json_text(written, 2) + "\n");
     outputs.commit();
     return file;
 }
