@@ -288,6 +288,12 @@ export class Channels {
     }
   }
 
+  /// Marks the row of a muscle that the pointer is on.
+  highlight(name: string | null): void {
+    const base = name?.replace(/\.[lr]$/, "");
+    for (const block of this.list.querySelectorAll<HTMLElement>(".channel")) block.classList.toggle("pointed", block.dataset.channel === base);
+  }
+
   /// Opens and shows the row of a muscle that was picked on the stage.
   reveal(name: string): void {
     const base = name.replace(/\.[lr]$/, "");

@@ -50,6 +50,12 @@ export class RemoteEngine {
     });
   }
 
+  /// Ends the connection; it comes back after a while, as after a fault.
+  cut(wait_ms: number): void {
+    this.wait_ms = wait_ms;
+    this.socket?.close();
+  }
+
   /// The page has drawn a pose and is ready for another.
   credit(): void {
     this.send({ type: "credit" });

@@ -5,9 +5,9 @@
 import * as THREE from "three";
 
 import { lean } from "./lean.js";
-import type { Muscles, Picture, Pose, Scene } from "./protocol.js";
+import type { Motion, Muscles, Picture, Pose, Scene, Skull } from "./protocol.js";
 
-export type Sight = "skin" | "wire" | "muscles" | "strain";
+export type Sight = "skin" | "wire" | "muscles" | "strain" | "skull";
 
 interface Part {
   material: string;
@@ -71,6 +71,7 @@ export class Head {
   private readonly triangles: Uint32Array; ///< of all surfaces, over the shared vertices
   private parts: Part[] = [];
   private muscleMeshes: { mesh: THREE.Mesh; column: number; name: string }[] = [];
+  private bones: { cranium: THREE.Mesh; mandible: THREE.Mesh } | null = null;
   private musclePosition: THREE.BufferAttribute | null = null;
   private sight: Sight = "skin";
   private readonly plain: Record<string, THREE.Material>;
@@ -200,7 +201,40 @@ export class Head {
     this.show(this.sight);
   }
 
-  get muscles(): { mesh: THREE.Mesh; name: string }[] {
+  useSkull(skull: Skull): void {
+    const bone = ({ vertices, triangles }: Skull["cranium"]) => {
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute("position", new THREE.BufferAttribute(vertices, 3));
+      geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
+      geometry.computeVertexNormals();
+      const material = new THREE.MeshStandardMaterial({ color: 0xe4d9c3, roughness: 0.8 });
+      const mesh = new THREE.Mesh(geometry, this.isLean ? lean(material) : material);
+      mesh.matrixAutoUpdate = false;
+      mesh.frustumCulled = false;
+      this.group.add(mesh);
+      return mesh;
+    };
+    if (this.bones) this.group.remove(this.bones.cranium, this.bones.mandible);
+    this.bones = { cranium: bone(skull.cranium), mandible: bone(skull.mandible) };
+    this.show(this.sight);
+  }
+
+  get hasSkull(): boolean {
+    return this.bones !== null;
+  }
+
+  /// Where a point of the mandible at rest is now: for tests.
+  mandiblePoint(at: [number, number, number]): THREE.Vector3 | null {
+    return this.bones && new THREE.Vector3(...at).applyMatrix4(this.bones.mandible.matrix);
+  }
+
+  /// Lets a muscle shine that the pointer is on.
+  highlight(name: string | null): void {
+    for (const one of this.muscleMeshes)
+      (one.mesh.material as THREE.MeshStandardMaterial).emissive.set(one.name === name ? 0x2a4a78 : 0x000000);
+  }
+
+  get muscles(): { mesh: THREE.Mesh; name: string; column: number }[] {
     return this.sight === "muscles" ? this.muscleMeshes : [];
   }
 
@@ -216,7 +250,7 @@ export class Head {
         part.mesh.geometry.setAttribute("color", part.colour);
         material = new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.8 });
       }
-      if (skin && sight === "muscles")
+      if (skin && (sight === "muscles" || sight === "skull"))
         material = new THREE.MeshStandardMaterial({
           color: 0xbfa89a,
           roughness: 0.5,
@@ -229,6 +263,7 @@ export class Head {
       part.mesh.visible = !hidden;
     }
     for (const { mesh } of this.muscleMeshes) mesh.visible = sight === "muscles";
+    for (const mesh of this.bones ? Object.values(this.bones) : []) mesh.visible = sight === "skull";
   }
 
   take(pose: Pose): void {
@@ -244,6 +279,11 @@ export class Head {
         (mesh.material as THREE.MeshStandardMaterial).color.copy(
           activationColour(column < 0 ? 0 : pose.activation[column] / 127),
         );
+    if (this.bones) {
+      const matrix = ({ turn, at_m }: Motion) => new THREE.Matrix4().compose(new THREE.Vector3(...at_m), new THREE.Quaternion(...turn), new THREE.Vector3(1, 1, 1));
+      this.bones.cranium.matrix.copy(matrix(pose.head));
+      this.bones.mandible.matrix.copy(matrix(pose.head).multiply(matrix(pose.mandible)));
+    }
     this.refresh(this.sight === "strain" ? pose.strain : null);
   }
 

@@ -8,10 +8,15 @@ import { byId, h, shown } from "./dom.js";
 import { RemoteEngine } from "./engine.js";
 import { activationColour } from "./head.js";
 import type { Sight } from "./head.js";
+import { Hover } from "./hover.js";
+import { Keeper } from "./keeper.js";
+import type { Edit } from "./key_edits.js";
+import { NewHead } from "./newhead.js";
 import type { Binary, DocumentMessage, Pose, Scene, State, Vec, Welcome } from "./protocol.js";
 import { SpeechSound } from "./speech.js";
 import { Stage } from "./stage.js";
 import { Timeline } from "./timeline.js";
+import type { Speech } from "./timeline_canvas.js";
 
 let welcome: Welcome | null = null;
 let script: DocumentMessage | null = null;
@@ -62,21 +67,56 @@ const channels = new Channels(byId("channels"), {
   override: (channel, value) => engine.send({ type: "override", channel, value }),
   release: (channel) => engine.send(channel ? { type: "release", channel } : { type: "release" }),
   key: (channel) => engine.send({ type: "key", channel }),
-  select: (channel) => engine.send({ type: "select", channel }),
+  select,
+});
+
+/// The muscle whose force and length are shown: the one that was chosen, while the pointer is on no other.
+let chosen = "";
+function select(channel: string): void {
+  chosen = channel;
+  engine.send({ type: "select", channel });
+}
+
+const hover = new Hover(byId("stage"), {
+  probe: (event) => stage.probe(event),
+  highlight: (muscle) => {
+    stage.highlight(muscle);
+    channels.highlight(muscle);
+  },
+  ask: (muscle) => {
+    if (welcome?.steers) engine.send({ type: "select", channel: muscle?.replace(/\.[lr]$/, "") ?? chosen });
+  },
 });
 
 const timeline = new Timeline(byId("timeline"), {
-  edit: (edits, gesture) => engine.send(gesture ? { type: "edit", edits, gesture } : { type: "edit", edits }),
-  seek: (t_s) => engine.send({ type: "seek", t_s }),
+  edit,
+  seek,
   say: (text) => (byId("twin").textContent = text),
+  tell: (text) => say(text),
 });
 
 const speech = new SpeechSound();
+let said: Speech | null = null;
+
+const keeper = new Keeper({ edit, show: takeDocument, say });
+
+const newHead = new NewHead({ ask: (message) => engine.ask(message), open: (path) => engine.send({ type: "open", path }) });
+
+function edit(edits: Edit[], gesture?: string): void {
+  if (engine.open) engine.send(gesture ? { type: "edit", edits, gesture } : { type: "edit", edits });
+  else keeper.editAlone(edits, gesture);
+}
+
+function undo(): void {
+  if (engine.open) engine.send({ type: "undo" });
+  else keeper.undoAlone();
+}
 
 // What the engine says
 
 function takeWelcome(message: Welcome): void {
   welcome = message;
+  keeper.useWelcome(message);
   byId("file-name").textContent = message.file ?? `new script for ${message.rig}`;
   byId("folder").textContent = message.folder;
   document.title = `${message.file ?? message.rig} – Risorius studio`;
@@ -138,6 +178,7 @@ function takeState(message: State): void {
   }
   connection.classList.toggle("late", late);
   channels.useState(message);
+  hover.useState(message);
   timeline.useState(message);
   speech.follow(message.t_s, message.playing);
   stage.showPulls(message.pulls);
@@ -164,6 +205,7 @@ function takeBinary(message: Binary): void {
     case "scene": {
       scene = message.scene;
       stage.use(scene);
+      hover.useScene(scene);
       fillLandmarks(scene);
       setSight(byId<HTMLSelectElement>("sight").value as Sight);
       break;
@@ -173,7 +215,17 @@ function takeBinary(message: Binary): void {
       stage.changed();
       break;
     case "sound":
-      void speech.use(message.bytes);
+      void speech.use(message.bytes).then((sound) => {
+        if (said) timeline.useSpeech((said = { ...said, ...sound }));
+      });
+      break;
+    case "skull":
+      stage.head?.useSkull(message.skull);
+      if (pose) stage.take(pose);
+      write("busy", "");
+      break;
+    case "mesh":
+      newHead.useMesh(message.mesh);
       break;
     case "muscles":
       stage.head?.useMuscles(message.muscles);
@@ -182,6 +234,7 @@ function takeBinary(message: Binary): void {
       pose = message.pose;
       stage.take(pose);
       channels.meters(pose);
+      hover.usePose(pose);
       // The next pose is asked for when this one is on the screen.
       requestAnimationFrame(() => engine.credit());
       document.body.dataset.step = String(pose.step);
@@ -189,14 +242,26 @@ function takeBinary(message: Binary): void {
 }
 
 function takeOther(message: Record<string, any>): void {
-  if (message.type === "error") say(String(message.message));
+  if (message.type === "error" && !newHead.useError(String(message.message))) say(String(message.message));
   if (message.type === "saved") {
     byId("file-name").textContent = message.path;
-    if (welcome) welcome.file = message.path;
+    if (welcome) {
+      welcome.file = message.path;
+      keeper.useName(welcome.folder, message.path);
+    }
     say(`Saved ${message.path}`, true);
   }
-  if (message.type === "sound") speech.expect(Number(message.start_s));
+  if (message.type === "speech") {
+    speech.expect(Number(message.start_s));
+    const any = message.sound || message.phones.length > 0;
+    said = any ? { start_s: message.start_s, phones: message.phones, words: message.words, samples: null, rate_hz: 1 } : null;
+    timeline.useSpeech(said);
+  }
+  if (message.type === "steers" && welcome) welcome.steers = true;
   if (message.type === "steers") say("This page steers now.", true);
+  if (message.type === "meshes") newHead.useMeshes(message.files);
+  if (message.type === "landmarks_saved") newHead.useSaved(message.path);
+  if (message.type === "fit") newHead.useFit(message);
   if (message.type === "files") showFiles(message.scripts, message.samples);
 }
 
@@ -206,11 +271,15 @@ function connected(yes: boolean): void {
   place.classList.toggle("lost", !yes);
   if (!yes) place.textContent = "no engine";
   byId("lost").hidden = yes || script === null;
+  if (!yes) keeper.lost();
 }
 
 const engine = new RemoteEngine(location.hash.slice(1), {
   welcome: takeWelcome,
-  document: takeDocument,
+  document: (message) => {
+    takeDocument(message);
+    keeper.useDocument(message);
+  },
   state: takeState,
   binary: takeBinary,
   other: takeOther,
@@ -222,7 +291,8 @@ const engine = new RemoteEngine(location.hash.slice(1), {
 function setSight(sight: Sight): void {
   byId<HTMLSelectElement>("sight").value = sight;
   stage.show(sight);
-  engine.send({ type: "sights", strain: sight === "strain", muscles: sight === "muscles" });
+  engine.send({ type: "sights", strain: sight === "strain", muscles: sight === "muscles", skull: sight === "skull" });
+  if (sight === "skull" && stage.head && !stage.head.hasSkull) say("The bones are being estimated. This takes some seconds.", true);
   const legend = byId("legend");
   legend.hidden = sight !== "strain" && sight !== "muscles";
   if (legend.hidden) return;
@@ -256,7 +326,27 @@ function setHand(on: boolean): void {
   byId("tool-turn").setAttribute("aria-checked", String(!on));
 }
 
+/// On a narrow stage, what is about pulling is below a button.
+function openPullOptions(open: boolean): void {
+  byId("pull-options").setAttribute("aria-expanded", String(open));
+  byId("pull-fields").classList.toggle("open", open);
+}
+document.addEventListener("pointerdown", (event) => {
+  if (!(event.target as HTMLElement).closest(".pull-options")) openPullOptions(false);
+});
+
+let lastSecond = "3"; // the profile
+
+/// The number of a named camera beside the main view, or "".
+function showSecond(index: string): void {
+  if (index) lastSecond = index;
+  byId<HTMLSelectElement>("second-camera").value = index;
+  stage.showSecond(index ? Number(index) : null);
+}
+
 function playOrPause(): void {
+  // Browsers let a page sound only after a gesture: this is one.
+  speech.allow();
   if (state?.playing) engine.send({ type: "pause" });
   else
     engine.send({
@@ -266,9 +356,24 @@ function playOrPause(): void {
     });
 }
 
+/// Where the playhead was sent last, s: the engine may not be there yet when the next step comes.
+let sought: { t_s: number; at_ms: number } | null = null;
+const seekTakes_ms = 1500;
+
+function seek(t_s: number): void {
+  sought = { t_s, at_ms: performance.now() };
+  engine.send({ type: "seek", t_s });
+  if (!state?.playing && said?.samples) {
+    speech.allow();
+    speech.scrub(t_s);
+  }
+}
+
 function step(frames: number): void {
   if (!state || !script) return;
-  engine.send({ type: "seek", t_s: Math.min(script.duration_s, Math.max(0, state.t_s + frames / 60)) });
+  const fresh = sought && !state.playing && performance.now() - sought.at_ms < seekTakes_ms;
+  const from = fresh ? Math.round(sought!.t_s * 60) / 60 : state.t_s;
+  seek(Math.min(script.duration_s, Math.max(0, from + frames / 60)));
 }
 
 function save(): void {
@@ -311,7 +416,7 @@ function addEvent(choice: string): void {
   const events = script.script.events;
   const edits: { path: string; value: unknown }[] = events ? [] : [{ path: "/events", value: [] }];
   edits.push({ path: `/events/${events?.length ?? 0}`, value: event });
-  engine.send({ type: "edit", edits });
+  edit(edits);
 }
 
 /// A copy without the engine: the browser saves it where it saves files.
@@ -326,26 +431,30 @@ function on(id: string, type: string, does: () => void): void {
   byId(id).addEventListener(type, does);
 }
 on("play", "click", playOrPause);
-on("to-start", "click", () => engine.send({ type: "seek", t_s: 0 }));
-on("undo", "click", () => engine.send({ type: "undo" }));
+on("to-start", "click", () => seek(0));
+on("undo", "click", undo);
 on("redo", "click", () => engine.send({ type: "redo" }));
 on("save", "click", save);
 on("open", "click", () => engine.send({ type: "files" }));
+on("new-head", "click", () => newHead.show(welcome?.folder ?? ""));
 on("help", "click", () => byId<HTMLDialogElement>("help-dialog").showModal());
 on("copy", "click", download);
 on("tool-turn", "click", () => setHand(false));
 on("tool-hand", "click", () => setHand(true));
+on("pull-options", "click", () => openPullOptions(byId("pull-options").getAttribute("aria-expanded") !== "true"));
 on("sight", "change", () => setSight(byId<HTMLSelectElement>("sight").value as Sight));
 on("camera", "change", () => stage.look(Number(byId<HTMLSelectElement>("camera").value)));
+on("second-camera", "change", () => showSecond(byId<HTMLSelectElement>("second-camera").value));
 on("snap", "change", () => (timeline.snapKeys = byId<HTMLInputElement>("snap").checked));
 on("duration", "change", () => {
   const value = Number(byId<HTMLInputElement>("duration").value);
-  engine.send({ type: "edit", edits: [{ path: "/duration_s", value }] });
+  edit([{ path: "/duration_s", value }]);
 });
 on("landmark", "change", () => {
-  const select = byId<HTMLSelectElement>("landmark");
-  if (select.value && !stage.grabLandmark(select.value)) say(`Tissue does not move the landmark ${select.value}.`);
-  select.value = "";
+  const choice = byId<HTMLSelectElement>("landmark");
+  if (choice.value && !stage.grabLandmark(choice.value)) say(`Tissue does not move the landmark ${choice.value}.`);
+  choice.value = "";
+  openPullOptions(false);
 });
 on("add", "change", () => {
   const select = byId<HTMLSelectElement>("add");
@@ -364,7 +473,10 @@ byId<HTMLDialogElement>("save-dialog").addEventListener("close", () => {
   engine.send({ type: "save", path, overwrite: path === welcome?.file });
 });
 const cameraSelect = byId<HTMLSelectElement>("camera");
-cameras.forEach(({ name }, index) => cameraSelect.append(h("option", { value: index }, `${index + 1}  ${name}`)));
+cameras.forEach(({ name }, index) => {
+  cameraSelect.append(h("option", { value: index }, `${index + 1}  ${name}`));
+  byId("second-camera").append(h("option", { value: index }, `+ ${name}`));
+});
 for (const tab of document.querySelectorAll<HTMLButtonElement>(".tabs button"))
   tab.addEventListener("click", () => {
     document.body.dataset.panel = tab.dataset.panel;
@@ -379,12 +491,15 @@ document.addEventListener("keydown", (event) => {
   const key = event.key.toLowerCase();
   if (command && key === "s") save();
   else if (command && (key === "y" || (key === "z" && event.shiftKey))) engine.send({ type: "redo" });
-  else if (command && key === "z" && !typing) engine.send({ type: "undo" });
+  else if (command && key === "z" && !typing) undo();
+  else if (command && key === "a" && !typing) timeline.selectAll();
   else if (command || typing || event.target instanceof HTMLSelectElement) return;
   else if (key === " " && !(event.target instanceof HTMLButtonElement) ) playOrPause();
   else if (key === "," || key === ".") step(key === "," ? -1 : 1);
-  else if (key === "home") engine.send({ type: "seek", t_s: 0 });
+  else if (key === "home") seek(0);
   else if (key === "k" && channels.lastName) engine.send({ type: "key", channel: channels.lastName });
+  else if (key === "v") showSecond(byId<HTMLSelectElement>("second-camera").value ? "" : lastSecond);
+  else if (key === "m") timeline.mirror();
   else if (key === "h") setHand(!stage.hand);
   else if (key === "/") channels.focusSearch();
   else if (key === "?") byId<HTMLDialogElement>("help-dialog").showModal();
@@ -395,9 +510,41 @@ document.addEventListener("keydown", (event) => {
   } else return;
   event.preventDefault();
 });
+/// Keys go through the clipboard of the system as text, so that another page can take them.
+let pasteMirrored = false;
+document.addEventListener("keydown", (event) => (pasteMirrored = event.shiftKey), true);
+const inField = (event: ClipboardEvent) => event.target instanceof HTMLInputElement && !["range", "checkbox"].includes(event.target.type);
+for (const type of ["copy", "cut"] as const)
+  document.addEventListener(type, (event) => {
+    const text = inField(event) || !getSelection()?.isCollapsed ? null : timeline.copy();
+    if (text === null) return;
+    event.clipboardData?.setData("text/plain", text);
+    event.preventDefault();
+    if (type === "cut") timeline.remove();
+  });
+document.addEventListener("paste", (event) => {
+  if (inField(event) || document.querySelector("dialog[open]")) return;
+  if (timeline.paste(event.clipboardData?.getData("text/plain") ?? "", pasteMirrored)) event.preventDefault();
+});
+
+// The engine that is started again has another address, which differs only behind the #: the browser would not load it.
+window.addEventListener("hashchange", () => location.reload());
 window.addEventListener("beforeunload", (event) => {
   if (script?.dirty) event.preventDefault();
 });
 
-// For tests: where a vertex is on the screen.
-(window as any).studio = { screenOf: (vertex: number) => stage.screenOf(vertex), scene: () => scene, state: () => state, script: () => script, sounds: () => speech.sounds };
+// For tests: where a vertex is on the screen, and what the engine has said.
+(window as any).studio = {
+  screenOf: (vertex: number, inSecond?: boolean) => stage.screenOf(vertex, inSecond),
+  probe: (at: { clientX: number; clientY: number }) => stage.probe(at),
+  scene: () => scene,
+  state: () => state,
+  script: () => script,
+  sounds: () => speech.sounds,
+  scrubbed: () => speech.scrubbed,
+  said: () => said,
+  newHead: () => newHead.debug,
+  mandible: (at: Vec) => stage.head?.mandiblePoint(at)?.toArray() ?? null,
+  ask: (message: Record<string, unknown>) => engine.ask(message),
+  cut: (wait_ms: number) => engine.cut(wait_ms),
+};

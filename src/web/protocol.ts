@@ -73,6 +73,7 @@ export interface DocumentMessage {
   redo: boolean;
   duration_s: number;
   curves: Record<string, number[]>;
+  recorded?: Record<string, number[]>; ///< muscle activity that was recorded (EMG), as excitation
 }
 
 export type Vec = [number, number, number];
@@ -139,9 +140,36 @@ export interface Muscles {
   rest: Float32Array;
 }
 
+/// A mesh that landmarks are put on.
+export interface MeshFrame {
+  file: string;
+  rig: string; ///< where its rig is written
+  vertices: Float32Array;
+  triangles: Uint32Array;
+  groups: { name: string; from: number; count: number }[]; ///< ranges of triangles
+}
+
+/// A rigid motion: a quaternion x, y, z, w, and a translation.
+export interface Motion {
+  turn: [number, number, number, number];
+  at_m: Vec;
+}
+
+export interface Bone {
+  vertices: Float32Array;
+  triangles: Uint32Array;
+}
+
+export interface Skull {
+  cranium: Bone;
+  mandible: Bone;
+}
+
 export interface Pose {
   step: number;
   t_s: number;
+  head: Motion; ///< from rest, in the world
+  mandible: Motion; ///< from rest, in the head
   vertices: Int16Array;
   drive: Int8Array;
   activation: Int8Array;
@@ -153,6 +181,8 @@ const enum Kind {
   scene = 2,
   picture = 3,
   muscles = 4,
+  mesh = 5,
+  skull = 6,
   sound = 0x46464952, // "RIFF": a WAV file as it is
 }
 
@@ -161,6 +191,8 @@ export type Binary =
   | { kind: "scene"; scene: Scene }
   | { kind: "picture"; picture: Picture }
   | { kind: "muscles"; muscles: Muscles }
+  | { kind: "mesh"; mesh: MeshFrame }
+  | { kind: "skull"; skull: Skull }
   | { kind: "sound"; bytes: ArrayBuffer };
 
 interface Place {
@@ -172,8 +204,8 @@ function decodePose(data: ArrayBuffer): Pose {
   const view = new DataView(data);
   const flags = view.getUint8(1);
   const columns = view.getUint16(2, true);
-  const count = view.getUint32(44, true);
-  let at = 48;
+  const count = view.getUint32(72, true);
+  let at = 76;
   const vertices = new Int16Array(data, at, 3 * count);
   at += 6 * count;
   const drive = new Int8Array(data, at, columns);
@@ -190,7 +222,11 @@ function decodePose(data: ArrayBuffer): Pose {
     const rows = view.getUint32(at, true);
     muscles = new Int16Array(data.slice(at + 4, at + 4 + 6 * rows));
   }
-  return { step: view.getUint32(4, true), t_s: view.getFloat64(8, true), vertices, drive, activation, strain, muscles };
+  const motion = (from: number): Motion => {
+    const [x, y, z, w, ...at_m] = Array.from({ length: 7 }, (_, i) => view.getFloat32(from + 4 * i, true));
+    return { turn: [x, y, z, w], at_m: at_m as Vec };
+  };
+  return { step: view.getUint32(4, true), t_s: view.getFloat64(8, true), head: motion(16), mandible: motion(44), vertices, drive, activation, strain, muscles };
 }
 
 export function decode(data: ArrayBuffer): Binary {
@@ -219,5 +255,10 @@ export function decode(data: ArrayBuffer): Binary {
     const parts = head.parts.map((p: Record<string, any>) => ({ ...p, triangles: u32(p.triangles) }));
     return { kind: "muscles", muscles: { parts, rest: f32(head.rest) } };
   }
+  if (kind === Kind.skull) {
+    const bone = (one: Record<string, Place>): Bone => ({ vertices: f32(one.vertices), triangles: u32(one.triangles) });
+    return { kind: "skull", skull: { cranium: bone(head.cranium), mandible: bone(head.mandible) } };
+  }
+  if (kind === Kind.mesh) return { kind: "mesh", mesh: { ...head, vertices: f32(head.vertices), triangles: u32(head.triangles) } };
   throw new Error(`a message of an unknown kind ${kind}`);
 }

@@ -4,12 +4,15 @@
 
 /// Sound that is off by more than this is moved, s. Less is not heard as a fault of the lips.
 const allowed_s = 0.08;
+const moment_s = 0.09;
 
 export class SpeechSound {
   private context: AudioContext | null = null;
   private buffer: AudioBuffer | null = null;
   private source: AudioBufferSourceNode | null = null;
   private start_s = 0;
+  private moment: AudioBufferSourceNode | null = null;
+  scrubbed = 0; ///< moments that have sounded, for tests
   private begun_s = 0; // of the context's clock, less the offset in the sound
 
   get sounds(): boolean {
@@ -29,8 +32,22 @@ export class SpeechSound {
     this.start_s = start_s;
   }
 
-  async use(bytes: ArrayBuffer): Promise<void> {
-    if (this.context) this.buffer = await this.context.decodeAudioData(bytes);
+  /// Returns the samples, which may be seen before they may be heard.
+  async use(bytes: ArrayBuffer): Promise<{ samples: Float32Array; rate_hz: number }> {
+    this.buffer = await new OfflineAudioContext(1, 1, 48000).decodeAudioData(bytes);
+    return { samples: this.buffer.getChannelData(0), rate_hz: this.buffer.sampleRate };
+  }
+
+  /// Sounds for a moment at a time of the script, while the playhead is drawn.
+  scrub(t_s: number): void {
+    const { context, buffer } = this;
+    const offset_s = t_s - this.start_s;
+    if (!context || !buffer || offset_s < 0 || offset_s >= buffer.duration) return;
+    this.moment?.stop();
+    this.moment = new AudioBufferSourceNode(context, { buffer });
+    this.moment.connect(context.destination);
+    this.moment.start(0, offset_s, moment_s);
+    this.scrubbed++;
   }
 
   /// Called with each state of the engine.

@@ -10,6 +10,7 @@ import { byId, h } from "./dom.js";
 import { Head } from "./head.js";
 import { softwareGl } from "./lean.js";
 import type { Sight } from "./head.js";
+import type { Probed } from "./hover.js";
 import type { HeldPull, Pose, Scene, Vec } from "./protocol.js";
 
 export interface Pulls {
@@ -24,7 +25,17 @@ const keyStep_m = 1e-3;
 const keyPull = 900; ///< number of the pull that the keyboard holds
 const longPress_ms = 300;
 
+/// A camera on the head, with the element that the pointer moves it on.
+interface View {
+  element: HTMLElement;
+  camera: THREE.PerspectiveCamera;
+  controls: OrbitControls;
+  named: number; ///< the named camera that it was put to last
+  turned: boolean; ///< by the person since then
+}
+
 interface Grip {
+  view: View;
   pointer: number;
   pull: number;
   vertex: number;
@@ -38,14 +49,14 @@ export class Stage {
   hand = false; ///< the tool
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
-  private readonly camera = new THREE.PerspectiveCamera(viewAngle_deg, 1, 0.05, 20);
-  private readonly controls: OrbitControls;
+  private readonly main: View;
+  private readonly second: View; ///< beside the main one, when it is shown
+  private active: View; ///< the one that was touched last
   private readonly arrows = new THREE.Group();
   private readonly canvas: HTMLCanvasElement;
   private grips: Grip[] = [];
   private nextPull = 1;
   private dirty = true;
-  private lastView = 0;
   private pressing: { timer: number; id: number } | null = null;
   private lamps = new THREE.Group();
   drawn = 0; ///< pictures drawn, for measurements
@@ -65,11 +76,9 @@ export class Stage {
     place.prepend(this.canvas);
     this.light();
     this.scene.add(this.arrows);
-    this.controls = new OrbitControls(this.camera, this.canvas);
-    this.controls.enableDamping = false;
-    this.controls.minDistance = 0.15;
-    this.controls.maxDistance = 4;
-    this.controls.addEventListener("change", () => (this.dirty = true));
+    this.main = this.view(this.canvas);
+    this.second = this.view(byId("second"));
+    this.active = this.main;
     this.listen();
     new ResizeObserver(() => this.resize()).observe(place);
     this.resize();
@@ -78,6 +87,41 @@ export class Stage {
       if (this.dirty) this.draw();
     };
     draw();
+  }
+
+  private view(element: HTMLElement): View {
+    const camera = new THREE.PerspectiveCamera(viewAngle_deg, 1, 0.05, 20);
+    const controls = new OrbitControls(camera, element);
+    controls.enableDamping = false;
+    controls.minDistance = 0.15;
+    controls.maxDistance = 4;
+    controls.addEventListener("change", () => (this.dirty = true));
+    const view = { element, camera, controls, named: 0, turned: false };
+    controls.addEventListener("start", () => (view.turned = true));
+    return view;
+  }
+
+  private get views(): View[] {
+    return this.second.element.hidden ? [this.main] : [this.main, this.second];
+  }
+
+  private viewOf(event: Event): View | null {
+    return this.views.find((view) => view.element === event.target) ?? null;
+  }
+
+  /// Where a view is in the window.
+  private boxOf(view: View): DOMRect {
+    const box = view.element.getBoundingClientRect();
+    const whole = view === this.second || this.views.length === 1;
+    return whole ? box : new DOMRect(box.x, box.y, box.width / 2, box.height);
+  }
+
+  /// Shows a named camera beside the main view; null shows the main view alone.
+  showSecond(index: number | null): void {
+    this.second.element.hidden = index === null;
+    if (index === null) this.active = this.main;
+    else Object.assign(this.second, { named: index, turned: false });
+    this.resize();
   }
 
   private light(): void {
@@ -100,9 +144,16 @@ export class Stage {
 
   private draw(): void {
     this.dirty = false;
-    // The light moves with the camera, as in videos.
-    this.lamps.quaternion.copy(this.camera.quaternion);
-    this.renderer.render(this.scene, this.camera);
+    const [width, height] = [this.place.clientWidth, this.place.clientHeight];
+    const each = width / this.views.length;
+    this.renderer.setScissorTest(true);
+    this.views.forEach((view, index) => {
+      this.renderer.setViewport(index * each, 0, each, height);
+      this.renderer.setScissor(index * each, 0, each, height);
+      // The light moves with the camera, as in videos.
+      this.lamps.quaternion.copy(view.camera.quaternion);
+      this.renderer.render(this.scene, view.camera);
+    });
     this.placeLabels();
     this.drawn++;
     this.place.dataset.drawn = String(this.drawn);
@@ -112,9 +163,13 @@ export class Stage {
     const width = Math.max(1, this.place.clientWidth);
     const height = Math.max(1, this.place.clientHeight);
     this.setPixels(Math.min(window.devicePixelRatio, 2));
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
-    this.look(this.lastView);
+    for (const view of this.views) {
+      view.camera.aspect = width / this.views.length / height;
+      view.camera.updateProjectionMatrix();
+      // What the person looks at stays.
+      if (!view.turned) this.put(view, view.named);
+    }
+    this.dirty = true;
   }
 
   use(scene: Scene): void {
@@ -122,7 +177,7 @@ export class Stage {
     this.head = new Head(scene, softwareGl());
     this.scene.add(this.head.group);
     this.grips = [];
-    this.look(this.lastView);
+    for (const view of this.views) this.put(view, view.named);
   }
 
   take(pose: Pose): void {
@@ -139,32 +194,38 @@ export class Stage {
     this.dirty = true;
   }
 
+  /// Puts the main view to a named camera.
   look(index: number): void {
-    this.lastView = index;
+    this.put(this.main, index);
+  }
+
+  private put(view: View, index: number): void {
+    Object.assign(view, { named: index, turned: false });
     if (!this.head) return;
-    const view = frame(cameras[index], this.head.scene.landmarks, this.camera.aspect);
-    const distance = view.height_m / 2 / Math.tan((viewAngle_deg * Math.PI) / 360);
-    this.controls.target.copy(view.target);
-    this.camera.position.copy(view.target).addScaledVector(view.direction, distance);
-    this.camera.lookAt(view.target);
-    this.controls.update();
+    const { camera, controls } = view;
+    const framed = frame(cameras[index], this.head.scene.landmarks, camera.aspect);
+    const distance = framed.height_m / 2 / Math.tan((viewAngle_deg * Math.PI) / 360);
+    controls.target.copy(framed.target);
+    camera.position.copy(framed.target).addScaledVector(framed.direction, distance);
+    camera.lookAt(framed.target);
+    controls.update();
     this.dirty = true;
   }
 
   // Pulling
 
-  private ray(event: { clientX: number; clientY: number }): THREE.Raycaster {
-    const box = this.canvas.getBoundingClientRect();
+  private ray(event: { clientX: number; clientY: number }, view: View): THREE.Raycaster {
+    const box = this.boxOf(view);
     const x = (2 * (event.clientX - box.left)) / box.width - 1;
     const y = 1 - (2 * (event.clientY - box.top)) / box.height;
     const ray = new THREE.Raycaster();
-    ray.setFromCamera(new THREE.Vector2(x, y), this.camera);
+    ray.setFromCamera(new THREE.Vector2(x, y), view.camera);
     return ray;
   }
 
-  private vertexAt(event: { clientX: number; clientY: number }): number {
+  private vertexAt(event: { clientX: number; clientY: number }, view: View): number {
     if (!this.head) return -1;
-    const hit = this.ray(event).intersectObjects(this.head.skinMeshes, false)[0];
+    const hit = this.ray(event, view).intersectObjects(this.head.skinMeshes, false)[0];
     if (!hit || !hit.face) return -1;
     let nearest = -1;
     let least = Infinity;
@@ -176,24 +237,29 @@ export class Stage {
     return nearest;
   }
 
-  private grab(vertex: number, pointer: number, pull: number): Grip {
+  private grab(view: View, vertex: number, pointer: number, pull: number): Grip {
     const hand = this.head!.point(vertex);
-    const normal = this.camera.getWorldDirection(new THREE.Vector3());
+    const normal = view.camera.getWorldDirection(new THREE.Vector3());
     const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(normal, hand);
-    const grip = { pointer, pull, vertex, hand, plane, pinned: false };
+    const grip = { view, pointer, pull, vertex, hand, plane, pinned: false };
     this.grips.push(grip);
     this.pulls.begin(pull, this.head!.scene.vertex[vertex], hand.toArray() as Vec);
     return grip;
   }
 
-  private start(event: PointerEvent): boolean {
-    const vertex = this.vertexAt(event);
+  private start(event: PointerEvent, view: View): boolean {
+    const vertex = this.vertexAt(event, view);
     if (vertex < 0) return false;
-    this.controls.enabled = false;
-    this.canvas.setPointerCapture(event.pointerId);
-    this.grab(vertex, event.pointerId, this.nextPull++);
+    this.steerable(false);
+    view.element.setPointerCapture(event.pointerId);
+    this.grab(view, vertex, event.pointerId, this.nextPull++);
     this.place.classList.add("pulling");
     return true;
+  }
+
+  /// Whether the pointer moves the cameras.
+  private steerable(yes: boolean): void {
+    for (const view of [this.main, this.second]) view.controls.enabled = yes;
   }
 
   private letGo(grip: Grip): void {
@@ -202,31 +268,33 @@ export class Stage {
   }
 
   private listen(): void {
-    const canvas = this.canvas;
-    // Before the controls of the camera, which listen on the same element.
-    this.place.addEventListener(
+    const place = this.place;
+    // Before the controls of the camera, which listen on the elements of the views.
+    place.addEventListener(
       "pointerdown",
       (event) => {
-        if (event.target !== canvas || event.button !== 0) return;
-        canvas.focus({ preventScroll: true });
-        if (this.pickMuscle(event)) return;
-        if ((event.ctrlKey || event.metaKey || this.hand) && this.start(event)) {
+        const view = this.viewOf(event);
+        if (!view || event.button !== 0) return;
+        this.active = view;
+        view.element.focus({ preventScroll: true });
+        this.pickMuscle(event, view);
+        if ((event.ctrlKey || event.metaKey || this.hand) && this.start(event, view)) {
           event.stopPropagation();
           return;
         }
         if (event.pointerType !== "touch") return;
         const timer = window.setTimeout(() => {
           this.pressing = null;
-          if (this.start(event)) navigator.vibrate?.(10);
+          if (this.start(event, view)) navigator.vibrate?.(10);
         }, longPress_ms);
         this.pressing = { timer, id: event.pointerId };
       },
       true,
     );
-    canvas.addEventListener("pointermove", (event) => {
+    place.addEventListener("pointermove", (event) => {
       const grip = this.grips.find((one) => one.pointer === event.pointerId && !one.pinned);
       if (grip) {
-        const to = this.ray(event).ray.intersectPlane(grip.plane, new THREE.Vector3());
+        const to = this.ray(event, grip.view).ray.intersectPlane(grip.plane, new THREE.Vector3());
         if (!to) return;
         grip.hand.copy(to);
         this.pulls.move(grip.pull, to.toArray() as Vec);
@@ -240,13 +308,13 @@ export class Stage {
       this.pressing = null;
       for (const grip of this.grips.filter((one) => one.pointer === event.pointerId && !one.pinned)) this.letGo(grip);
       if (!this.grips.some((one) => !one.pinned)) {
-        this.controls.enabled = true;
+        this.steerable(true);
         this.place.classList.remove("pulling");
       }
     };
-    canvas.addEventListener("pointerup", up);
-    canvas.addEventListener("pointercancel", up);
-    canvas.addEventListener(
+    place.addEventListener("pointerup", up);
+    place.addEventListener("pointercancel", up);
+    place.addEventListener(
       "wheel",
       (event) => {
         const grip = this.grips.find((one) => !one.pinned && one.pointer >= 0);
@@ -257,23 +325,43 @@ export class Stage {
       },
       { capture: true, passive: false },
     );
-    canvas.addEventListener("keydown", (event) => this.key(event));
-    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+    for (const { element } of [this.main, this.second]) {
+      element.addEventListener("keydown", (event) => this.key(event));
+      element.addEventListener("focus", () => (this.active = this.viewOf({ target: element } as unknown as Event) ?? this.main));
+      element.addEventListener("contextmenu", (event) => event.preventDefault());
+    }
+    const canvas = this.canvas;
     canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
     canvas.addEventListener("webglcontextrestored", () => (this.dirty = true));
   }
 
-  private pickMuscle(event: PointerEvent): boolean {
-    if (!this.head || event.ctrlKey || this.hand) return false;
+  /// What is under the pointer, for its label.
+  probe(event: { clientX: number; clientY: number; target?: EventTarget | null }): Probed | null {
+    const view = this.views.find((one) => one.element === event.target) ?? this.main;
+    if (!this.head || this.grips.some((one) => !one.pinned)) return null;
     const muscles = this.head.muscles;
-    const hit = this.ray(event).intersectObjects(muscles.map((m) => m.mesh), false)[0];
+    const hit = this.ray(event, view).intersectObjects(muscles.map((m) => m.mesh), false)[0];
+    const found = hit && muscles.find((m) => m.mesh === hit.object);
+    if (found) return { muscle: found.name, column: found.column };
+    const vertex = this.vertexAt(event, view);
+    return vertex < 0 ? null : { vertex };
+  }
+
+  highlight(muscle: string | null): void {
+    this.head?.highlight(muscle);
+    this.dirty = true;
+  }
+
+  private pickMuscle(event: PointerEvent, view: View): void {
+    if (!this.head || event.ctrlKey || this.hand) return;
+    const muscles = this.head.muscles;
+    const hit = this.ray(event, view).intersectObjects(muscles.map((m) => m.mesh), false)[0];
     const found = hit && muscles.find((m) => m.mesh === hit.object);
     if (found) this.pulls.pick(found.name);
-    return false;
   }
 
   private deeper(grip: Grip, by_m: number): void {
-    const towards = this.camera.getWorldDirection(new THREE.Vector3()).multiplyScalar(-by_m);
+    const towards = grip.view.camera.getWorldDirection(new THREE.Vector3()).multiplyScalar(-by_m);
     grip.hand.add(towards);
     grip.plane.setFromNormalAndCoplanarPoint(grip.plane.normal, grip.hand);
     this.pulls.move(grip.pull, grip.hand.toArray() as Vec);
@@ -293,14 +381,14 @@ export class Stage {
     }
     if (nearest < 0 || least > 5e-3) return false;
     this.letGoOfAll();
-    this.grab(nearest, -1, keyPull);
+    this.grab(this.main, nearest, -1, keyPull);
     this.canvas.focus();
     return true;
   }
 
   letGoOfAll(): void {
     for (const grip of [...this.grips]) this.letGo(grip);
-    this.controls.enabled = true;
+    this.steerable(true);
     this.place.classList.remove("pulling");
   }
 
@@ -317,10 +405,10 @@ export class Stage {
       this.letGoOfAll();
     } else if (grip && (event.key === "p" || event.key === "P")) {
       grip.pinned = true;
-      this.controls.enabled = true;
+      this.steerable(true);
     } else if (grip && arrow && grip.pointer < 0) {
-      const right = new THREE.Vector3(1, 0, 0).applyQuaternion(this.camera.quaternion);
-      const up = new THREE.Vector3(0, 1, 0).applyQuaternion(this.camera.quaternion);
+      const right = new THREE.Vector3(1, 0, 0).applyQuaternion(grip.view.camera.quaternion);
+      const up = new THREE.Vector3(0, 1, 0).applyQuaternion(grip.view.camera.quaternion);
       grip.hand.addScaledVector(right, arrow[0] * keyStep_m).addScaledVector(up, arrow[1] * keyStep_m);
       this.pulls.move(grip.pull, grip.hand.toArray() as Vec);
     } else if (grip && (event.key === "PageUp" || event.key === "PageDown")) {
@@ -339,26 +427,31 @@ export class Stage {
   }
 
   private turn(x: number, y: number): void {
-    const away = this.camera.position.clone().sub(this.controls.target);
-    const sphere = new THREE.Spherical().setFromVector3(away);
+    const { camera, controls } = this.active;
+    const sphere = new THREE.Spherical().setFromVector3(camera.position.clone().sub(controls.target));
     sphere.theta += (x * 5 * Math.PI) / 180;
     sphere.phi = Math.min(Math.PI - 0.05, Math.max(0.05, sphere.phi - (y * 5 * Math.PI) / 180));
-    this.camera.position.setFromSpherical(sphere).add(this.controls.target);
-    this.controls.update();
-    this.dirty = true;
+    camera.position.setFromSpherical(sphere).add(controls.target);
+    this.moved();
   }
 
   private pan(x: number, y: number): void {
-    const by = new THREE.Vector3(x, y, 0).multiplyScalar(0.01).applyQuaternion(this.camera.quaternion);
-    this.camera.position.add(by);
-    this.controls.target.add(by);
-    this.controls.update();
-    this.dirty = true;
+    const { camera, controls } = this.active;
+    const by = new THREE.Vector3(x, y, 0).multiplyScalar(0.01).applyQuaternion(camera.quaternion);
+    camera.position.add(by);
+    controls.target.add(by);
+    this.moved();
   }
 
   zoom(factor: number): void {
-    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
-    this.controls.update();
+    const { camera, controls } = this.active;
+    camera.position.sub(controls.target).multiplyScalar(factor).add(controls.target);
+    this.moved();
+  }
+
+  private moved(): void {
+    this.active.turned = true;
+    this.active.controls.update();
     this.dirty = true;
   }
 
@@ -399,20 +492,21 @@ export class Stage {
 
   private placeLabels(): void {
     for (const { element, at } of this.labels) {
-      const p = at.clone().project(this.camera);
-      const x = ((p.x + 1) / 2) * this.place.clientWidth;
+      const p = at.clone().project(this.main.camera);
+      const x = ((p.x + 1) / 2) * (this.place.clientWidth / this.views.length);
       const y = ((1 - p.y) / 2) * this.place.clientHeight;
       element.style.transform = `translate(${Math.round(x + 14)}px, ${Math.round(y - 12)}px)`;
     }
   }
 
   /// Where a vertex of the mesh is on the screen, px in the window: for tests and the keyboard.
-  screenOf(meshVertex: number): { x: number; y: number } | null {
+  screenOf(meshVertex: number, inSecond = false): { x: number; y: number } | null {
     if (!this.head) return null;
     const v = this.head.scene.vertex.indexOf(meshVertex);
     if (v < 0) return null;
-    const p = this.head.point(v).project(this.camera);
-    const box = this.canvas.getBoundingClientRect();
+    const view = inSecond ? this.second : this.main;
+    const p = this.head.point(v).project(view.camera);
+    const box = this.boxOf(view);
     return { x: box.left + ((p.x + 1) / 2) * box.width, y: box.top + ((1 - p.y) / 2) * box.height };
   }
 }

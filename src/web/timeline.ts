@@ -4,17 +4,17 @@
 /// so that keyboard and screen reader reach them; curves are drawn from samples of the simulation's own curves.
 
 import { clamp, h, shown } from "./dom.js";
+import { copiedKeys, mirroredCopy, mirroredKeys, movedKeys, nameOf, pastedKeys, placeOf, readCopiedKeys, removedKeys } from "./key_edits.js";
+import type { CopiedKeys, Edit, KeyEdits } from "./key_edits.js";
+import { drawCurve, drawRuler, drawSpeech } from "./timeline_canvas.js";
+import type { Speech } from "./timeline_canvas.js";
 import type { Channel, DocumentMessage, Key, Script, ScriptEvent, State } from "./protocol.js";
-
-export interface Edit {
-  path: string;
-  value?: unknown;
-}
 
 export interface TimelineActions {
   edit(edits: Edit[], gesture?: string): void;
   seek(t_s: number): void;
   say(text: string): void;
+  tell(text: string): void; ///< so that it is not overlooked
 }
 
 interface KeyView {
@@ -25,6 +25,7 @@ interface KeyView {
 
 const rowHeight = 44;
 const margin = 12; ///< px beside the first and the last moment
+const held_ms = 600; ///< presses that follow one another within this are one step of undo
 const inset = 7; ///< px between a curve and the border of its row
 
 export class Timeline {
@@ -37,6 +38,7 @@ export class Timeline {
   private t_s = 0;
   private computed_s = 0;
   private gestures = 0;
+  private speech: Speech | null = null;
   snapKeys = true;
   private readonly ruler = h("canvas", { class: "ruler", "aria-hidden": true });
   private readonly lanes = h("div", { class: "lanes" });
@@ -56,14 +58,17 @@ export class Timeline {
     this.inspector.append(
       h("label", {}, "Key at ", this.time, " s"),
       h("label", {}, "Value ", this.value),
-      h("button", { class: "quiet", onclick: () => this.remove() }, "Delete"),
+      h("button", { class: "quiet", title: "The other side does the same (M)", onclick: () => this.mirror() }, "Mirror"),
+      h("button", { class: "quiet", title: "Copy (Ctrl+C); paste at the playhead with Ctrl+V, mirrored with Ctrl+Shift+V", onclick: () => this.copy() }, "Copy"),
+      h("button", { class: "quiet", title: "Paste at the playhead (Ctrl+V)", onclick: () => this.paste(null, false) }, "Paste"),
+      h("button", { class: "quiet", title: "Delete", onclick: () => this.remove() }, "Delete"),
     );
     this.inspector.hidden = true;
     this.time.addEventListener("change", () => this.put(Number(this.time.value), null));
     this.value.addEventListener("change", () => this.put(null, Number(this.value.value)));
     this.lanes.append(this.box, this.playhead);
     this.scroller.append(this.names, this.lanes, this.empty);
-    place.append(h("div", { class: "ruler-line" }, h("div", { class: "corner" }), this.ruler), this.scroller);
+    place.append(h("div", { class: "ruler-line" }, h("div", { class: "corner busy", id: "busy", role: "status" }), this.ruler), this.scroller);
     place.querySelector(".transport")!.append(this.inspector);
     this.listen();
     new ResizeObserver(() => this.layout()).observe(this.scroller);
@@ -82,6 +87,12 @@ export class Timeline {
     }
     if (!this.dragging) this.build();
     else this.layout();
+  }
+
+  /// What the script says; null: nothing.
+  useSpeech(speech: Speech | null): void {
+    this.speech = speech;
+    if (this.document && !this.dragging) this.build();
   }
 
   useState(state: State): void {
@@ -128,12 +139,14 @@ export class Timeline {
     this.names.replaceChildren();
     this.lanes.replaceChildren(this.box, this.playhead);
     const tracks = Object.entries(this.script.channels ?? {});
+    if (this.speech) this.addRow("Sound", "", "sound", {}, `Sound: ${this.speech.words.map((word) => word[0]).join(" ")}`);
     for (const [channel, track] of tracks) {
       this.names.append(
         h(
           "div",
           { class: "lane-name", title: channel },
-          h("span", {}, this.label(channel)),
+          h("span", {}, this.label(channel).replace(/, (left|right)$/, "")),
+          h("b", {}, channel.endsWith(".l") ? "L" : channel.endsWith(".r") ? "R" : ""),
           h("button", { class: "remove", title: "Remove the channel from the script", "aria-label": `Remove ${this.label(channel)}`, onclick: () => this.actions.edit([{ path: `/channels/${channel}` }]) }, "×"),
         ),
       );
@@ -142,6 +155,9 @@ export class Timeline {
       track.keys.forEach((key, index) => lane.append(this.keyButton(channel, index, key)));
       this.lanes.append(lane);
     }
+    const recorded = Object.keys(this.document!.recorded ?? {});
+    for (const muscle of recorded)
+      this.addRow(`EMG ${this.label(muscle).replace(/, (left|right)$/, "").toLowerCase()}`, muscle, "recorded", { "data-recorded": muscle }, `Recorded activity of ${this.label(muscle)}`);
     const events = this.script.events ?? [];
     if (events.length > 0) {
       this.names.append(h("div", { class: "lane-name" }, h("span", {}, "Events")));
@@ -160,10 +176,17 @@ export class Timeline {
       });
       this.lanes.append(lane);
     }
-    this.empty.hidden = tracks.length + events.length + pulls.length > 0;
+    this.empty.hidden = tracks.length + events.length + pulls.length + recorded.length > 0 || this.speech !== null;
     this.layout();
     this.showSelection();
     if (focused) this.lanes.querySelector<HTMLElement>(`[data-key="${CSS.escape(focused)}"]`)?.focus();
+  }
+
+  /// A row that is only looked at.
+  private addRow(name: string, channel: string, kind: string, attributes: Record<string, string>, label: string): void {
+    const side = channel.endsWith(".l") ? "L" : channel.endsWith(".r") ? "R" : "";
+    this.names.append(h("div", { class: `lane-name ${kind}`, title: label }, h("span", {}, name), h("b", {}, side)));
+    this.lanes.append(h("div", { class: `lane ${kind}`, role: "img", "aria-label": label, ...attributes }, h("canvas", { "aria-hidden": true })));
   }
 
   private keyButton(channel: string, index: number, key: Key): HTMLButtonElement {
@@ -236,7 +259,7 @@ export class Timeline {
       block.style.left = `${this.x(from)}px`;
       block.style.width = `${Math.max(10, this.x(Number(block.dataset.to)) - this.x(from))}px`;
     }
-    for (const lane of this.lanes.querySelectorAll<HTMLElement>(".lane[data-channel]")) this.drawCurve(lane);
+    for (const lane of this.lanes.querySelectorAll<HTMLElement>(".lane:has(canvas)")) this.drawRow(lane);
     this.drawRuler();
     this.placePlayhead();
   }
@@ -246,60 +269,26 @@ export class Timeline {
     return inset + (1 - (value - min) / (max - min)) * (rowHeight - 2 * inset);
   }
 
-  private sized(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
-    const ratio = window.devicePixelRatio || 1;
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
-    canvas.width = Math.round(width * ratio);
-    canvas.height = Math.round(height * ratio);
-    // Small pictures that are drawn anew all the time: the processor is quicker than the way to the graphics processor.
-    const context = canvas.getContext("2d", { willReadFrequently: true })!;
-    context.scale(ratio, ratio);
-    return context;
-  }
-
-  private drawCurve(lane: HTMLElement): void {
-    const channel = lane.dataset.channel!;
-    const samples = this.document!.curves[channel];
-    const context = this.sized(lane.querySelector("canvas")!);
-    if (!samples) return;
-    const [min, max] = this.range(channel);
-    context.beginPath();
-    samples.forEach((value, i) => {
-      const t_s = (this.document!.duration_s * i) / (samples.length - 1);
-      context[i === 0 ? "moveTo" : "lineTo"](this.x(t_s), this.y(channel, value));
-    });
-    context.lineWidth = 1.5;
-    context.strokeStyle = "#7fb6f5";
-    context.stroke();
-    const zero = this.y(channel, clamp(0, min, max));
-    context.lineTo(this.x(this.document!.duration_s), zero);
-    context.lineTo(this.x(0), zero);
-    context.fillStyle = "rgba(111, 177, 255, 0.13)";
-    context.fill();
+  private drawRow(lane: HTMLElement): void {
+    const canvas = lane.querySelector("canvas")!;
+    const { duration_s, curves, recorded } = this.document!;
+    const x = (t_s: number) => this.x(t_s);
+    if (lane.dataset.channel !== undefined) {
+      const channel = lane.dataset.channel;
+      const [min, max] = this.range(channel);
+      drawCurve(canvas, curves[channel], duration_s, x, (value) => this.y(channel, value), clamp(0, min, max), "127, 182, 245");
+    } else if (lane.dataset.recorded !== undefined) {
+      const samples = recorded?.[lane.dataset.recorded];
+      const height = lane.clientHeight - 6;
+      drawCurve(canvas, samples, duration_s, x, (value) => 3 + (1 - clamp(value, 0, 1)) * height, 0, "87, 199, 133");
+    } else if (this.speech) {
+      drawSpeech(canvas, this.speech, x, (px) => this.t(px));
+    }
   }
 
   private drawRuler(): void {
     if (!this.document) return;
-    const context = this.sized(this.ruler);
-    const height = this.ruler.clientHeight;
-    const end = this.x(this.document.duration_s);
-    context.fillStyle = "#3d4450";
-    context.fillRect(this.x(0), height - 4, end - this.x(0), 3);
-    context.fillStyle = "#57c785";
-    context.fillRect(this.x(0), height - 4, this.x(this.computed_s) - this.x(0), 3);
-    const steps = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 30, 60];
-    const step = steps.find((s) => (s / this.span_s) * this.width > 58) ?? 60;
-    context.font = "11px system-ui, sans-serif";
-    context.textBaseline = "top";
-    for (let i = 0; i * step <= this.document.duration_s + 1e-9; i++) {
-      const x = this.x(i * step);
-      context.fillStyle = "#5a6270";
-      context.fillRect(x, height - 10, 1, 6);
-      context.fillStyle = "#b3bac4";
-      const text = `${shown(i * step)} s`;
-      const wide = context.measureText(text).width;
-      context.fillText(text, clamp(x + 4, 0, this.ruler.clientWidth - wide - 2), 4);
-    }
+    drawRuler(this.ruler, (t_s) => this.x(t_s), this.width / this.span_s, this.document.duration_s, this.computed_s);
   }
 
   private placePlayhead(): void {
@@ -334,39 +323,15 @@ export class Timeline {
   }
 
   private keyNamed(name: string): { channel: string; index: number; key: Key } | null {
-    const at = name.lastIndexOf(" ");
-    const channel = name.slice(0, at);
-    const index = Number(name.slice(at + 1));
-    const key = this.script.channels?.[channel]?.keys[index];
-    return key ? { channel, index, key } : null;
+    const place = placeOf(name);
+    const key = this.script.channels?.[place.channel]?.keys[place.index];
+    return key ? { ...place, key } : null;
   }
 
-  /// Moves keys by a time and a value, each within its neighbours that do not move and its range.
+  /// Moves keys by a time and a part of their range.
   private moved(names: string[], by_s: number, byPart: number, from: Script): Edit[] {
-    const edits: Edit[] = [];
-    const byChannel = new Map<string, Set<number>>();
-    for (const name of names) {
-      const one = this.keyNamed(name);
-      if (!one) continue;
-      if (!byChannel.has(one.channel)) byChannel.set(one.channel, new Set());
-      byChannel.get(one.channel)!.add(one.index);
-    }
-    for (const [channel, indices] of byChannel) {
-      const before = from.channels?.[channel]?.keys;
-      if (!before) continue;
-      const [min, max] = this.range(channel);
-      const keys = before.map((key) => [...key] as Key);
-      const order = [...indices].sort((a, b) => (by_s > 0 ? b - a : a - b));
-      for (const i of order) {
-        const least = i > 0 ? keys[i - 1][0] + 1e-3 : 0;
-        const most = i + 1 < keys.length ? keys[i + 1][0] - 1e-3 : this.document!.duration_s;
-        const t_s = by_s === 0 ? before[i][0] : clamp(this.snapped(before[i][0] + by_s), least, most);
-        const value = byPart === 0 ? before[i][1] : Math.round(clamp(before[i][1] + byPart * (max - min), min, max) * 1000) / 1000;
-        keys[i] = [Math.round(t_s * 1e4) / 1e4, value];
-      }
-      edits.push({ path: `/channels/${channel}/keys`, value: keys });
-    }
-    return edits;
+    const move = { by_s, byPart, snapped: (t_s: number) => this.snapped(t_s), range: (channel: string) => this.range(channel) };
+    return movedKeys(names.map(placeOf), from, move);
   }
 
   private dragKey(down: PointerEvent, channel: string, index: number): void {
@@ -402,13 +367,22 @@ export class Timeline {
     element.addEventListener("pointerup", end, { once: true });
   }
 
+  private pressed: { names: string[]; from: Script; by_s: number; byPart: number; until_ms: number; gesture: string } | null = null;
+
   private keyKey(event: KeyboardEvent, channel: string, index: number): void {
     const steps: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 0.01], ArrowDown: [0, -0.01] };
     const step = steps[event.key];
     if (step) {
       const scale = event.shiftKey ? 10 : 1;
-      const edits = this.moved([...this.selected, `${channel} ${index}`], (scale * step[0]) / this.rate, scale * step[1], this.script);
-      this.actions.edit(edits);
+      const names = [...new Set([...this.selected, `${channel} ${index}`])];
+      const now = performance.now();
+      // A key that is held: moved on from where the keys were at its first press, because the engine has not answered yet.
+      if (!this.pressed || now > this.pressed.until_ms || this.pressed.names.join() !== names.join())
+        this.pressed = { names, from: this.script, by_s: 0, byPart: 0, until_ms: 0, gesture: `press ${++this.gestures}` };
+      this.pressed.until_ms = now + held_ms;
+      this.pressed.by_s += (scale * step[0]) / this.rate;
+      this.pressed.byPart += scale * step[1];
+      this.actions.edit(this.moved(names, this.pressed.by_s, this.pressed.byPart, this.pressed.from), this.pressed.gesture);
     } else if (event.key === "Delete" || event.key === "Backspace") {
       this.remove();
     } else if (event.key === "Enter") {
@@ -430,14 +404,59 @@ export class Timeline {
   }
 
   remove(): void {
-    const edits: Edit[] = [];
-    for (const [channel, track] of Object.entries(this.script.channels ?? {})) {
-      const kept = track.keys.filter((_, index) => !this.selected.has(`${channel} ${index}`));
-      if (kept.length === track.keys.length) continue;
-      edits.push(kept.length > 0 ? { path: `/channels/${channel}/keys`, value: kept } : { path: `/channels/${channel}` });
-    }
+    const edits = removedKeys(this.places, this.script);
     this.selected.clear();
     if (edits.length > 0) this.actions.edit(edits);
+  }
+
+  // Copies
+
+  private copied: CopiedKeys | null = null;
+
+  private get places() {
+    return [...this.selected].map(placeOf);
+  }
+
+  /// The selected keys as a text for the clipboard, or null.
+  copy(): string | null {
+    const copied = this.document && copiedKeys(this.places, this.script);
+    if (!copied) return null;
+    this.copied = copied;
+    this.actions.say(`${this.selected.size === 1 ? "1 key" : `${this.selected.size} keys`} copied`);
+    return JSON.stringify(copied);
+  }
+
+  /// Puts keys at the playhead; `text` is what the clipboard has. False: those are no keys.
+  paste(text: string | null, mirrored: boolean): boolean {
+    const copied = text === null ? this.copied : readCopiedKeys(text);
+    if (!copied || !this.document) return false;
+    const known = (name: string) => this.channels.has(name);
+    this.putAll(pastedKeys(mirrored ? mirroredCopy(copied, known) : copied, this.script, this.snapped(this.t_s)), "pasted");
+    return true;
+  }
+
+  /// Lets the other side do what the selected keys do.
+  mirror(): void {
+    if (this.selected.size === 0) return;
+    const made = mirroredKeys(this.places, this.script, (name) => this.channels.has(name));
+    if (made.put.length === 0) this.actions.tell("These channels move both sides alike: there is no other side to put the keys on.");
+    else this.putAll(made, "put on the other side");
+  }
+
+  private putAll(made: KeyEdits, done: string): void {
+    if (made.late > 0) this.actions.tell(`${made.late === 1 ? "One key lies" : `${made.late} keys lie`} after the end of the script and ${made.late === 1 ? "was" : "were"} left out.`);
+    if (made.put.length === 0) return;
+    this.selected = new Set(made.put.map(nameOf));
+    this.actions.edit(made.edits);
+    this.actions.say(`${made.put.length === 1 ? "1 key" : `${made.put.length} keys`} ${done}`);
+  }
+
+  selectAll(): void {
+    this.select(this.keys.map(nameOf), false);
+  }
+
+  get hasSelection(): boolean {
+    return this.selected.size > 0;
   }
 
   private listen(): void {

@@ -23,6 +23,8 @@ PoseFrame some_pose(int vertices) {
     pose.t_s = 1.25;
     pose.head = Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized());
     pose.head.translation() = Vec3(0.01, -0.02, 0.03);
+    pose.mandible = Eigen::AngleAxisd(-0.2, Vec3::UnitX());
+    pose.mandible.translation() = Vec3(0, -0.004, 0.006);
     pose.vertices.resize(vertices, 3);
     for (long i = 0; i < vertices; ++i)
         for (int k = 0; k < 3; ++k) pose.vertices(i, k) = 0.3 * number();
@@ -37,13 +39,14 @@ TEST(PoseFrame, IsExactToFiveMicrometres) {
     pose.strain[3] = std::numeric_limits<double>::quiet_NaN();
     pose.muscles = pose.vertices.topRows(10);
     const std::string bytes = encode_pose(pose, kFinestUnit_m);
-    EXPECT_EQ(bytes.size(), 48u + 6000 + 10 + 1000 + 4 + 60);
+    EXPECT_EQ(bytes.size(), 76u + 6000 + 10 + 1000 + 4 + 60);
     const PoseFrame back = decode_pose(bytes, kFinestUnit_m);
     EXPECT_LE((back.vertices - pose.vertices).cwiseAbs().maxCoeff(), 0.005e-3 + 1e-12);
     EXPECT_LE((back.muscles - pose.muscles).cwiseAbs().maxCoeff(), 0.005e-3 + 1e-12);
     EXPECT_EQ(back.step, 77u);
     EXPECT_EQ(back.t_s, 1.25);
     EXPECT_TRUE(back.head.isApprox(pose.head, 1e-6));
+    EXPECT_TRUE(back.mandible.isApprox(pose.mandible, 1e-6));
     EXPECT_LE((back.activation - pose.activation).cwiseAbs().maxCoeff(), 0.5 / 127);
     EXPECT_NEAR(back.strain[0], 0.1, 0.2 / 127);
     EXPECT_TRUE(std::isnan(back.strain[3]));

@@ -4,12 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 
 #include "face/adult_face.h"
 #include "risorius/core/json_text.h"
 #include "risorius/track/timeline.h"
+#include "risorius/view/scene_frame.h"
 
 namespace risorius::view {
 namespace {
@@ -39,6 +44,70 @@ Json state_of(const Session& session) { return Json::parse(session.state()); }
 Vec3 point_of(const Session& session, int vertex) {
     const Points all = session.drawn_scene().rest;
     return all.row(vertex).transpose();
+}
+
+// Nothing else drives the muscle: what is shown of the recording is what drives it.
+TEST(Session, ShowsRecordedActivityAsTheFaceGetsIt) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "studio_emg.tsv";
+    {
+        std::ofstream out(file);
+        out << "t\tZYG\n";
+        for (int i = 0; i <= 50; ++i) out << i / 100.0 << '\t' << 2.0 * std::min(i, 25) << '\n';
+    }
+    Json script = smile();
+    script["channels"] = Json::object();
+    script["events"] = Json::array();
+    script["emg"] = {{"file", file.string()},
+                     {"time_column", "t"},
+                     {"envelope", true},
+                     {"maximum", {{"ZYG", 100}}},
+                     {"channels", {{"zygomaticus_major.l", "ZYG"}}}};
+    const SessionInputs made = inputs(script);
+    Session session(made);
+    const Json document = Json::parse(session.document());
+    ASSERT_EQ(document["recorded"].size(), 1u);
+    const auto samples = document["recorded"]["zygomaticus_major.l"].get<std::vector<double>>();
+    const auto names = Json::parse(session.welcome())["columns"].get<std::vector<std::string>>();
+    const auto column = std::find(names.begin(), names.end(), "zygomaticus_major.l");
+    ASSERT_NE(column, names.end());
+    const auto read = made.read(JsonCursor::from_json(script, "script.json"));
+    const track::Timeline timeline(read, rig::adult().rig.channels());
+    const std::size_t last = samples.size() - 1;
+    for (std::size_t i = 0; i < last; i += 40)
+        EXPECT_NEAR(samples[i],
+                    timeline.at(0.5 * static_cast<double>(i) / static_cast<double>(last))
+                        .excitation[column - names.begin()],
+                    1e-4)
+            << i;
+    EXPECT_NEAR(*std::max_element(samples.begin(), samples.end()), 0.5, 1e-3);
+    EXPECT_TRUE(Json::parse(Session(inputs(smile())).document())["recorded"].empty());
+}
+
+// A quad and a triangle: three triangles in two groups, for the page that landmarks are put on.
+TEST(SceneFrame, MeshHasItsGroupsAsRangesOfTriangles) {
+    geom::PolygonMesh mesh;
+    mesh.positions.resize(5, 3);
+    mesh.positions << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0.5;
+    mesh.face_begin = {0, 3, 7};
+    mesh.corner_vertex = {1, 4, 2, 0, 1, 2, 3};
+    mesh.face_group = {1, 0};
+    mesh.group_names = {"skin", "eye"};
+    const std::string bytes = encode_mesh(mesh, "a/b.obj", "a/b.rig.json");
+    std::uint32_t numbers[2];
+    std::memcpy(numbers, bytes.data(), sizeof numbers);
+    EXPECT_EQ(numbers[0], 5u);
+    const Json head = Json::parse(bytes.substr(8, numbers[1]));
+    EXPECT_EQ(head["file"], "a/b.obj");
+    EXPECT_EQ(head["rig"], "a/b.rig.json");
+    EXPECT_EQ(head["groups"], Json::parse(R"([{"name": "skin", "from": 0, "count": 2},
+                                              {"name": "eye", "from": 2, "count": 1}])"));
+    const std::size_t data = 8 + numbers[1];
+    float last[3];
+    std::memcpy(last, bytes.data() + data + head["vertices"]["at"].get<std::size_t>() + 48, 12);
+    EXPECT_EQ(last[2], 0.5f);
+    std::uint32_t eye[3];
+    std::memcpy(eye, bytes.data() + data + head["triangles"]["at"].get<std::size_t>() + 24, 12);
+    EXPECT_EQ(std::vector<std::uint32_t>(eye, eye + 3), (std::vector<std::uint32_t>{1, 4, 2}));
 }
 
 TEST(Session, PlaysWhatTheScriptIs) {

@@ -5,102 +5,13 @@
 //   node browser.mjs RISORIUS PLAYWRIGHT_FOLDER SOURCE_FOLDER [SCREENSHOT_FOLDER]
 
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { mkdtempSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 
-const [program, packages, source, shots] = process.argv.slice(2);
-const { chromium } = await import(join(resolve(packages), "playwright-core/index.mjs"));
-const folder = mkdtempSync(join(tmpdir(), "risorius studio "));
-const script = {
-  format: "risorius-script",
-  version: 1,
-  rig: join(source, "rigs/adult/rig.json"),
-  duration_s: 0.5,
-  channels: { AU12: { keys: [[0, 0], [0.2, 0.5], [0.4, 0]] }, jaw_open: { keys: [[0, 0], [0.3, 0.2]] } },
-  events: [{ blink: {}, start_s: 0.1 }],
-};
-writeFileSync(join(folder, "script.json"), JSON.stringify(script));
-if (shots) mkdirSync(shots, { recursive: true });
-
-let server = null;
-function start(port = 0) {
-  server = spawn(program, ["view", join(folder, "script.json"), "--no-browser", "--port", String(port)], { stdio: ["ignore", "pipe", "inherit"] });
-  return new Promise((resolve, reject) => {
-    let text = "";
-    server.stdout.on("data", (data) => {
-      text += data;
-      const found = text.match(/http:\S+/);
-      if (found) resolve(found[0]);
-    });
-    server.on("exit", (code) => reject(new Error(`risorius view ended with ${code}`)));
-  });
-}
-function stop(signal = "SIGINT") {
-  server.removeAllListeners("exit");
-  const ended = new Promise((resolve) => server.once("exit", resolve));
-  server.kill(signal);
-  return ended;
-}
-
-let failed = 0;
-let page = null;
-async function test(name, body) {
-  const begin = Date.now();
-  try {
-    await body();
-    console.log(`ok    ${name} (${((Date.now() - begin) / 1000).toFixed(1)} s)`);
-  } catch (error) {
-    failed++;
-    console.log(`FAIL  ${name}\n${error.stack}`);
-    // What a test holds must not spoil the next one.
-    await page.mouse.up().catch(() => {});
-    await page.keyboard.up("Control").catch(() => {});
-  }
-}
-
-const browser = await chromium.launch({
-  executablePath: "/usr/bin/chromium",
-  args: ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"],
-});
-const errors = [];
-async function open(url, viewport = { width: 900, height: 620 }) {
-  const page = await browser.newPage({ viewport });
-  page.on("pageerror", (error) => errors.push(error.message));
-  page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
-  await page.goto(url);
-  await page.waitForFunction(() => document.body.dataset.step !== undefined, null, { timeout: 30000 });
-  return page;
-}
-const state = (page) => page.evaluate(() => window.studio.state());
-const scriptOf = (page) => page.evaluate(() => window.studio.script().script);
-const until = (page, what, argument) => page.waitForFunction(what, argument, { timeout: 30000 });
-/// Waits until the engine has answered all edits.
-const settled = async (page) => {
-  for (let last = -1, now = 0; last !== now; ) {
-    last = now;
-    await page.waitForTimeout(400);
-    now = await page.evaluate(() => window.studio.script().revision);
-  }
-};
-/// The mesh vertex that tissue moves nearest to a landmark.
-const vertexAt = (page, landmark) =>
-  page.evaluate((id) => {
-    const scene = window.studio.scene();
-    const [x, y, z] = scene.landmarks[id];
-    let best = -1;
-    let least = Infinity;
-    for (let v = 0; v < scene.vertices; v++) {
-      const far = Math.hypot(scene.rest[3 * v] - x, scene.rest[3 * v + 1] - y, scene.rest[3 * v + 2] - z);
-      if (scene.soft[v] && far < least) [best, least] = [v, far];
-    }
-    return scene.vertex[best];
-  }, landmark);
-const shot = (page, name) => (shots ? page.screenshot({ path: join(shots, `${name}.png`) }) : null);
+import { end, folder, open, packages, script, scriptOf, settled, shot, start, state, stop, test, until, vertexAt } from "./harness.mjs";
 
 let url = await start();
-page = await open(url);
+let page = await open(url);
 
 await test("loads: the face, the channels and the script are there", async () => {
   assert.equal(await page.title(), "script.json – Risorius studio");
@@ -217,6 +128,8 @@ await test("the sights show muscles and strain", async () => {
 });
 
 await test("the keyboard alone pulls a landmark by millimetres", async () => {
+  await page.locator("#pull-options").focus();
+  await page.keyboard.press("Enter");
   await page.locator("#landmark").focus();
   await page.locator("#landmark").selectOption("nl3_l");
   await until(page, () => window.studio.state().pulls.length === 1);
@@ -266,8 +179,4 @@ await test("on a phone nothing is wider than the screen", async () => {
   await shot(page, "phone");
 });
 
-assert.deepEqual(errors.filter((text) => !/WebSocket|ERR_CONNECTION_REFUSED|GL Driver Message/.test(text)), []);
-await browser.close();
-await stop();
-rmSync(folder, { recursive: true });
-process.exit(failed ? 1 : 0);
+await end();

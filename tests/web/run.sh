@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Runs browser.mjs, or says what is missing for it and returns 77, which ctest counts as skipped.
+# Runs a test of the page, or says what is missing for it and returns 77, which ctest counts as skipped.
+#
+#   run.sh TEST.mjs RISORIUS BUILD_FOLDER/web SOURCE_FOLDER NODE CHROMIUM
 set -euo pipefail
 
-program=$1 web=$2 source=$3 node=${4:-} chromium=${5:-}
+test=$1 program=$2 web=$3 source=$4 node=${5:-} chromium=${6:-}
 skip() {
     printf 'Skipped: %s\n' "$*"
     exit 77
@@ -11,4 +13,4 @@ skip() {
 [[ -x $node ]] || skip 'there is no Node.js here'
 [[ -x $chromium ]] || skip 'there is no Chromium here'
 [[ -f $web/page/index.html && -d $web/node_modules/playwright-core ]] || skip 'the page is not built; tools/web/build_page.sh builds it'
-exec "$node" "$source/tests/web/browser.mjs" "$program" "$web/node_modules" "$source"
+exec "$node" "$source/tests/web/$test" "$program" "$web/node_modules" "$source"

@@ -12,6 +12,7 @@
 #include "risorius/core/input_log.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
+#include "risorius/face/view/skull.h"
 #include "risorius/render/offscreen_view.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/talk/say_edit.h"
@@ -28,6 +29,7 @@ namespace {
 constexpr long kTicksWithoutPage = 60 * 60;  // a minute
 constexpr int kFirstCredit = 2;
 constexpr std::size_t kMostWaiting = 8;  // messages; a page that does not read gets no poses
+constexpr double kBoneStep_mm = 2.5;     // coarser than in videos: it comes sooner
 constexpr int kSkinPicture_px = 1024, kPartPicture_px = 256;
 
 Json new_script(const fs::path& rig) {
@@ -92,6 +94,7 @@ Studio::Studio(const fs::path& file, const std::string& quality) : quality_(qual
     const fs::path given = file.empty() ? data_folder() / "rigs" / "adult" / "rig.json" : file;
     const fs::path place = file.empty() ? fs::current_path() : fs::absolute(file).parent_path();
     folder_ = fs::weakly_canonical(place);
+    head_ = std::make_unique<StudioHead>(folder_);
     open(given);
 }
 
@@ -119,11 +122,16 @@ void Studio::open(const fs::path& file) {
                 script.at("rig").fail("the rig that is open; open the script anew for another");
             track::ScriptDescription read = track::read_script(
                 script, files->rig.channels(), files->rig.facs, files->rig.expressions);
-            talk::add_to_script(
-                talk::plan_speech(read.says, read.header, *files, inputs_.mouth_poses()), read);
+            const talk::PlannedSpeech speech =
+                talk::plan_speech(read.says, read.header, *files, inputs_.mouth_poses());
+            talk::add_to_script(speech, read);
+            planned_ = sound_of(speech);
             return read;
         }});
+    bones_.reset();  // waits: the bones are those of the session that goes
+    skull_.reset();
     script_ = std::move(opened);
+    sound_ = planned_;
     pictures_.clear();
     scene_ = std::make_shared<const std::string>(script_.session->scene());
 }
@@ -138,6 +146,8 @@ void Studio::run(serve::WebServer& server, const std::function<bool()>& stopped)
     make_pictures(server);
     server.run(handler, [&] { return stopped() || idle_ticks_ > kTicksWithoutPage; });
     painter_.reset();
+    bones_.reset();
+    head_->finish();
     if (script_.session->dirty()) write_recovery();
 }
 
@@ -160,6 +170,32 @@ void Studio::make_pictures(serve::WebServer& server) {
         });
 }
 
+// The bones take seconds as well.
+void Studio::make_skull() {
+    if (skull_) return send_skull();
+    if (bones_) return;
+    bones_ = std::make_unique<std::jthread>([this, of = script_.session.get()] {
+        std::shared_ptr<const std::string> skull;
+        try {
+            skull = std::make_shared<const std::string>(
+                view::encode_skull(face::estimate_skull(of->head(), of->rig(), kBoneStep_mm)));
+        } catch (const std::exception&) {
+            return;  // a head whose bones cannot be told has none here
+        }
+        server_->post([this, skull, of] {
+            if (script_.session.get() != of) return;
+            skull_ = skull;
+            send_skull();
+        });
+    });
+}
+
+void Studio::send_skull() {
+    for (Page& page : pages_)
+        if (page.wants_skull && !std::exchange(page.has_skull, true))
+            page.peer->send_binary(skull_);
+}
+
 Studio::Page* Studio::page_of(const serve::Peer& peer) {
     const auto found = std::find_if(pages_.begin(), pages_.end(),
                                     [&](const Page& page) { return page.peer == &peer; });
@@ -167,7 +203,7 @@ Studio::Page* Studio::page_of(const serve::Peer& peer) {
 }
 
 void Studio::greet(Page& page) {
-    page.has_muscles = page.wants_muscles = false;
+    page.has_muscles = page.wants_muscles = page.wants_skull = page.has_skull = false;
     Json welcome = json_or_null(script_.session->welcome());
     welcome["steers"] = page.peer == pages_.front().peer;
     welcome["folder"] = folder_.string();
@@ -176,6 +212,7 @@ void Studio::greet(Page& page) {
     page.peer->send_text(json_text(welcome));
     page.peer->send_binary(scene_);
     page.peer->send_text(script_.session->document());
+    send_sound(page);
     for (const auto& picture : pictures_) page.peer->send_binary(picture);
     page.credit = kFirstCredit;
     pose_waits_ = true;
@@ -198,6 +235,19 @@ void Studio::closed(serve::Peer& peer) {
         script_.session->receive(json_text(Json{{"type", "pull_end"}, {"pull", pull["pull"]}}));
     if (!pages_.empty())
         pages_.front().peer->send_text(json_text(Json{{"type", "steers"}, {"steers", true}}));
+}
+
+void Studio::send_sound(const Page& page) const {
+    page.peer->send_text(sound_.message);
+    if (sound_.wav) page.peer->send_binary(sound_.wav);
+}
+
+/// The document, and what it says when that has changed.
+void Studio::tell_document(const std::string& document) {
+    tell_all(document);
+    if (same_sound(planned_, sound_)) return;
+    sound_ = planned_;
+    for (const Page& page : pages_) send_sound(page);
 }
 
 void Studio::tell_all(const std::string& message) {
@@ -231,6 +281,8 @@ void Studio::text(serve::Peer& peer, const std::string& message) {
             save(cursor);
         } else if (is("say")) {
             say(peer, cursor);
+        } else if (is("meshes") || is("mesh") || is("save_landmarks") || is("fit")) {
+            new_head(peer, type.get<std::string>(), cursor);
         } else if (is("open")) {
             const auto sample = cursor.find("sample");
             const fs::path file = sample ? data_folder() / "samples" /
@@ -242,12 +294,16 @@ void Studio::text(serve::Peer& peer, const std::string& message) {
             make_pictures(*server_);
         } else {
             if (is("sights")) page->wants_muscles = field("muscles") == Json(true);
+            if (is("sights") && field("skull") == Json(true)) {
+                page->wants_skull = true;
+                make_skull();
+            }
             if (page->wants_muscles &&
                 !std::exchange(page->has_muscles, page->wants_muscles || page->has_muscles))
                 peer.send_binary(std::make_shared<const std::string>(script_.session->muscles()));
             for (const std::string& reply : script_.session->receive(message))
                 if (json_or_null(reply)["type"] == "document")
-                    tell_all(reply);
+                    tell_document(reply);
                 else
                     peer.send_text(reply);
             pose_waits_ = true;
@@ -276,18 +332,28 @@ void Studio::say(serve::Peer& peer, const JsonCursor& message) {
     for (const std::string& reply : replies) {
         const bool document = json_or_null(reply)["type"] == "document";
         if (document)
-            tell_all(reply);
+            tell_document(reply);
         else
             peer.send_text(reply);
         done = done && document;
     }
     if (!done) return;
-    tell_all(json_text(Json{{"type", "sound"}, {"start_s", said.start_s}}));
-    const auto sound = std::make_shared<const std::string>(said.wav);
-    for (const Page& page : pages_) page.peer->send_binary(sound);
     script_.session->receive(json_text(Json{{"type", "seek"}, {"t_s", at_s}}));
     script_.session->receive(json_text(Json{{"type", "play"}}));
     pose_waits_ = true;
+}
+
+void Studio::new_head(serve::Peer& peer, const std::string& type, const JsonCursor& message) {
+    if (type == "meshes") return peer.send_text(head_->meshes());
+    if (type == "mesh")
+        return peer.send_binary(std::make_shared<const std::string>(head_->mesh(message)));
+    message.allow_keys({"type", "id", "landmarks", "replace", "quick"});
+    const fs::path file = head_->write_landmarks(message);
+    const std::string name = file.lexically_proximate(folder_).generic_string();
+    tell_all(json_text(Json{{"type", "landmarks_saved"}, {"path", name}}));
+    if (type != "fit") return;
+    head_->fit(message, file, *server_, [this](const std::string& text) { tell_all(text); });
+    tell_all(json_text(Json{{"type", "fit"}, {"state", "running"}}));
 }
 
 void Studio::tick() {

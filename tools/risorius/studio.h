@@ -13,6 +13,8 @@
 #include "risorius/animate/render_inputs.h"
 #include "risorius/serve/web_server.h"
 #include "risorius/view/session.h"
+#include "tools/risorius/studio_head.h"
+#include "tools/risorius/studio_sound.h"
 
 namespace risorius::cli {
 
@@ -41,6 +43,7 @@ class Studio {
         int credit = 0;  ///< poses that the page is ready for
         bool has_muscles = false;
         bool wants_muscles = false;
+        bool wants_skull = false, has_skull = false;
     };
 
     void open(const std::filesystem::path& file);
@@ -50,11 +53,16 @@ class Studio {
     void tick();
     void greet(Page& page);
     void tell_all(const std::string& message);
+    void tell_document(const std::string& document);
+    void send_sound(const Page& page) const;
     void send_pose(bool always);
     void save(const JsonCursor& message);
     void say(serve::Peer& peer, const JsonCursor& message);
+    void new_head(serve::Peer& peer, const std::string& type, const JsonCursor& message);
     std::string files() const;
     void write_recovery() const;
+    void make_skull();
+    void send_skull();
     void make_pictures(serve::WebServer& server);
     Page* page_of(const serve::Peer& peer);
     std::filesystem::path in_project(const JsonCursor& name) const;
@@ -62,12 +70,15 @@ class Studio {
     std::string quality_;
     std::filesystem::path folder_;  ///< the project: canonical
     animate::RenderInputs inputs_;
+    std::unique_ptr<StudioHead> head_;
     OpenScript script_;
+    ScriptSound planned_, sound_;  ///< of the script that was read last; what the pages have
     std::vector<Page> pages_;
     std::vector<std::shared_ptr<const std::string>> pictures_;
     std::shared_ptr<const std::string> scene_;
     serve::WebServer* server_ = nullptr;
-    std::unique_ptr<std::jthread> painter_;
+    std::unique_ptr<std::jthread> painter_, bones_;
+    std::shared_ptr<const std::string> skull_;  ///< null: not wanted yet, or being estimated
     bool pose_waits_ = false, ever_seen_ = false;
     long idle_ticks_ = 0;
     double step_ms_ = 0;

@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 
 #include "risorius/core/data_folder.h"
 #include "risorius/core/error.h"
@@ -59,10 +60,24 @@ void open_browser(const std::string& url) {
     posix_spawn_file_actions_destroy(&quiet);
 }
 
+/// Browsers keep what is not saved by address. So the usual port is tried before any other.
+std::unique_ptr<serve::WebServer> listen_at(int port) {
+    constexpr int kUsualPort = 8417;
+    const serve::Page page = serve::read_page(page_folder().string());
+    if (port == 0) {
+        try {
+            return std::make_unique<serve::WebServer>(page, kUsualPort);
+        } catch (const Error&) {  // another studio is there
+        }
+    }
+    return std::make_unique<serve::WebServer>(page, port);
+}
+
 void run_studio(const StudioArguments& arguments) {
     check_kind(arguments.file);
     (void)face::quality_named(arguments.quality);
-    serve::WebServer server(serve::read_page(page_folder().string()), arguments.port);
+    const std::unique_ptr<serve::WebServer> listening = listen_at(arguments.port);
+    serve::WebServer& server = *listening;
     Studio studio(arguments.file, arguments.quality);
     if (arguments.common.json)
         std::printf("{\"url\": \"%s\"}\n", server.url().c_str());
@@ -80,7 +95,9 @@ void add_studio(CLI::App& app) {
         "view", "Open a script in a browser: pull the face, move its muscles, edit keys");
     auto arguments = std::make_shared<StudioArguments>();
     command->add_option("FILE", arguments->file, "A script or a rig; without it, the adult");
-    command->add_option("--port", arguments->port, "The port to listen at; 0 is any that is free")
+    command
+        ->add_option("--port", arguments->port,
+                     "The port to listen at; 0 is 8417, or any that is free")
         ->check(CLI::Range(0, 65535))
         ->capture_default_str();
     command->add_flag("--no-browser", arguments->no_browser,

@@ -27,7 +27,7 @@ cat >"$web/tsconfig.json" <<JSON
 {
   "compilerOptions": {
     "strict": true, "noEmit": true, "target": "es2022", "module": "esnext", "moduleResolution": "bundler",
-    "lib": ["es2022", "dom", "dom.iterable"], "types": [], "skipLibCheck": true,
+    "lib": ["es2022", "dom", "dom.iterable"], "types": [], "skipLibCheck": true, "resolveJsonModule": true,
     "paths": {"three": ["$web/node_modules/@types/three"], "three/*": ["$web/node_modules/@types/three/*"]}
   },
   "include": ["$root/src/web/*.ts"]

@@ -16,7 +16,8 @@ namespace risorius::view {
 
 namespace {
 
-constexpr std::uint32_t kSceneKind = 2, kPictureKind = 3, kMusclesKind = 4;
+constexpr std::uint32_t kSceneKind = 2, kPictureKind = 3, kMusclesKind = 4, kMeshKind = 5,
+                        kSkullKind = 6;
 
 const char* name_of(render::Material material) {
     switch (material) {
@@ -206,6 +207,44 @@ std::string encode_muscles(const face::MuscleSurfaces& surfaces) {
     const Json head{
         {"parts", parts}, {"rest", arrays.add(surfaces.rest)}, {"tendon", arrays.add(tendon)}};
     return arrays.message(kMusclesKind, head);
+}
+
+std::string encode_skull(const face::Skull& skull) {
+    Arrays arrays;
+    const auto bone = [&](const face::BoneSurface& surface) {
+        std::vector<std::uint32_t> triangles;
+        for (long f = 0; f < surface.triangles.rows(); ++f)
+            for (int k = 0; k < 3; ++k)
+                triangles.push_back(static_cast<std::uint32_t>(surface.triangles(f, k)));
+        const Json vertices = arrays.add(surface.vertices);
+        return Json{{"vertices", vertices}, {"triangles", arrays.add(triangles)}};
+    };
+    Json head{{"cranium", bone(skull.cranium)}};
+    head["mandible"] = bone(skull.mandible);
+    return arrays.message(kSkullKind, head);
+}
+
+std::string encode_mesh(const geom::PolygonMesh& mesh, const std::string& file,
+                        const std::string& rig) {
+    Arrays arrays;
+    Json groups = Json::array();
+    std::vector<std::uint32_t> triangles;
+    for (std::size_t g = 0; g < mesh.group_names.size(); ++g) {
+        const std::size_t from = triangles.size() / 3;
+        const Triangles of_group = geom::triangulate(mesh, {static_cast<int>(g)});
+        for (long f = 0; f < of_group.rows(); ++f)
+            for (int k = 0; k < 3; ++k)
+                triangles.push_back(static_cast<std::uint32_t>(of_group(f, k)));
+        groups.push_back({{"name", mesh.group_names[g]},
+                          {"from", from},
+                          {"count", triangles.size() / 3 - from}});
+    }
+    const Json head{{"file", file},
+                    {"rig", rig},
+                    {"vertices", arrays.add(mesh.positions)},
+                    {"triangles", arrays.add(triangles)},
+                    {"groups", groups}};
+    return arrays.message(kMeshKind, head);
 }
 
 }  // namespace risorius::view

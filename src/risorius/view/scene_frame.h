@@ -13,6 +13,8 @@
 #include "risorius/core/image.h"
 #include "risorius/core/types.h"
 #include "risorius/face/surfaces.h"
+#include "risorius/face/view/skull.h"
+#include "risorius/geom/polygon_mesh.h"
 #include "risorius/render/scene.h"
 
 namespace risorius::view {
@@ -30,5 +32,11 @@ std::string encode_scene(const render::Scene& scene, const DrawnVertices& drawn,
 /// The picture of a material, "skin" or "eye", 8 bits a channel.
 std::string encode_picture(const std::string& material, const Image& picture);
 std::string encode_muscles(const face::MuscleSurfaces& surfaces);
+/// The bones under the skin, at rest: {"cranium": {"vertices", "triangles"}, "mandible": the same}. A pose has the motion of the mandible.
+std::string encode_skull(const face::Skull& skull);
+/// A mesh that landmarks are put on: {"file", "rig", "vertices", "triangles", "groups": [{"name", "from", "count"}]}, where a group is
+/// a range of triangles.
+std::string encode_mesh(const geom::PolygonMesh& mesh, const std::string& file,
+                        const std::string& rig);
 
 }  // namespace risorius::view

@@ -305,7 +305,7 @@ void Session::seek(const JsonCursor& message) {
 }
 
 void Session::sights(const JsonCursor& message) {
-    message.allow_keys({"type", "id", "strain", "muscles"});
+    message.allow_keys({"type", "id", "strain", "muscles", "skull"});
     if (const auto strain = message.find("strain")) with_strain_ = strain->boolean();
     const auto muscles = message.find("muscles");
     if (muscles && muscles->boolean() != with_muscles_) {
@@ -438,6 +438,7 @@ void Session::show(const face::FacePose& pose, double t_s, const track::Drive& d
     unseen_.reset();
     shown_.t_s = t_s;
     shown_.head = pose.head;
+    shown_.mandible = pose.mandible;
     shown_.vertices = drawn_.of(pose.vertices);
     shown_.drive = drive.excitation;
     shown_.activation = face_->activation();

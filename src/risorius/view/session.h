@@ -52,6 +52,9 @@ class Session {
     std::string document() const;
     std::string scene() const;    ///< see scene_frame.h
     std::string muscles() const;  ///< see scene_frame.h
+    /// What the bones are estimated from, which takes seconds: a caller may do so on another thread (face/view/skull.h).
+    const rig::Head& head() const { return face_->head(); }
+    const rig::RigDescription& rig() const { return inputs_.rig->rig; }
     const render::Scene& drawn_scene() const { return scene_; }
 
     /// Does what a message asks, and returns messages for the page. What cannot be done gives a message "error"; nothing is thrown

@@ -119,7 +119,8 @@ std::string Session::document() const {
                           {"undo", document_.can_undo()},
                           {"redo", document_.can_redo()},
                           {"duration_s", script_.header.duration_s},
-                          {"curves", curve_samples(script_)}});
+                          {"curves", curve_samples(script_)},
+                          {"recorded", recorded_samples(script_)}});
 }
 
 std::string Session::muscles() const { return encode_muscles(face_->surfaces().muscles()); }

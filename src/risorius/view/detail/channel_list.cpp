@@ -79,4 +79,20 @@ Json curve_samples(const track::ScriptDescription& script) {
     return out;
 }
 
+Json recorded_samples(const track::ScriptDescription& script) {
+    Json out = Json::object();
+    for (const track::EmgTrack& one : script.emg) {
+        const Json before = out.value(one.muscle, Json::array());
+        Json samples = Json::array();
+        for (int i = 0; i < kRecordedSamples; ++i) {
+            const double t_s = script.header.duration_s * i / (kRecordedSamples - 1);
+            const double added =
+                before.empty() ? 0 : before[static_cast<std::size_t>(i)].get<double>();
+            samples.push_back(rounded(added + one.excitation.at(t_s)));
+        }
+        out[one.muscle] = std::move(samples);
+    }
+    return out;
+}
+
 }  // namespace risorius::view

@@ -17,4 +17,9 @@ Json channel_list(const rig::RigDescription& rig);
 inline constexpr int kCurveSamples = 240;
 Json curve_samples(const track::ScriptDescription& script);
 
+/// {"zygomaticus_major.l": [0, 0.01, ...]}: the excitations of recorded muscle activity (EMG), kRecordedSamples values of each,
+/// evenly from 0 to the duration. Recordings of one muscle are added. An empty object without a recording.
+inline constexpr int kRecordedSamples = 480;
+Json recorded_samples(const track::ScriptDescription& script);
+
 }  // namespace risorius::view

@@ -34,6 +34,12 @@ class Writer {
                 put(static_cast<std::int16_t>(
                     std::lround(std::clamp(points(i, k) / unit_m, -32767.0, 32767.0))));
     }
+    void put_motion(const Rigid& motion) {
+        const Eigen::Quaterniond turn(motion.linear());
+        for (const double value : {turn.x(), turn.y(), turn.z(), turn.w()})
+            put(static_cast<float>(value));
+        for (int k = 0; k < 3; ++k) put(static_cast<float>(motion.translation()[k]));
+    }
     void put_fractions(const Eigen::VectorXd& values) {
         for (const double value : values) put(byte_of(value));
     }
@@ -56,6 +62,16 @@ class Scanner {
         std::memcpy(&value, bytes_.data() + at_, sizeof(T));
         at_ += sizeof(T);
         return value;
+    }
+    Rigid motion() {
+        float values[7];
+        for (float& value : values) value = get<float>();
+        Rigid out = Rigid::Identity();
+        out.linear() = Eigen::Quaterniond(values[3], values[0], values[1], values[2])
+                           .normalized()
+                           .toRotationMatrix();
+        out.translation() = Vec3(values[4], values[5], values[6]);
+        return out;
     }
     Points points(std::uint32_t count, double unit_m) {
         if (at_ + 6ull * count > bytes_.size()) throw std::invalid_argument("a pose frame is cut");
@@ -84,17 +100,15 @@ double unit_for(const Points& rest) {
 
 std::string encode_pose(const PoseFrame& pose, double unit_m) {
     const auto vertices = static_cast<std::size_t>(pose.vertices.rows());
-    Writer out(64 + 7 * vertices + 6 * static_cast<std::size_t>(pose.muscles.rows()));
+    Writer out(92 + 7 * vertices + 6 * static_cast<std::size_t>(pose.muscles.rows()));
     out.put(kPoseKind);
     out.put(static_cast<std::uint8_t>((pose.strain.empty() ? 0 : kHasStrain) |
                                       (pose.muscles.rows() > 0 ? kHasMuscles : 0)));
     out.put(static_cast<std::uint16_t>(pose.drive.size()));
     out.put(pose.step);
     out.put(pose.t_s);
-    const Eigen::Quaterniond turn(pose.head.linear());
-    for (const double value : {turn.x(), turn.y(), turn.z(), turn.w()})
-        out.put(static_cast<float>(value));
-    for (int k = 0; k < 3; ++k) out.put(static_cast<float>(pose.head.translation()[k]));
+    out.put_motion(pose.head);
+    out.put_motion(pose.mandible);
     out.put(static_cast<std::uint32_t>(vertices));
     out.put_points(pose.vertices, unit_m);
     out.put_fractions(pose.drive);
@@ -117,11 +131,8 @@ PoseFrame decode_pose(const std::string& bytes, double unit_m) {
     PoseFrame pose;
     pose.step = in.get<std::uint32_t>();
     pose.t_s = in.get<double>();
-    float head[7];
-    for (float& value : head) value = in.get<float>();
-    pose.head.linear() =
-        Eigen::Quaterniond(head[3], head[0], head[1], head[2]).normalized().toRotationMatrix();
-    pose.head.translation() = Vec3(head[4], head[5], head[6]);
+    pose.head = in.motion();
+    pose.mandible = in.motion();
     const auto vertices = in.get<std::uint32_t>();
     pose.vertices = in.points(vertices, unit_m);
     pose.drive = in.fractions(columns);

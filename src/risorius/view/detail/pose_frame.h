@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// A pose as bytes for the page: 48 bytes of header, then whole numbers. All numbers are little-endian.
+/// A pose as bytes for the page: 76 bytes of header, then whole numbers. All numbers are little-endian.
 ///
 /// | bytes | type | content |
 /// |---|---|---|
@@ -10,8 +10,9 @@
 /// | 4 | uint32 | step of the session |
 /// | 8 | float64 | time in the script, s |
 /// | 16 | 7 float32 | motion of the head: quaternion x, y, z, w, then translation, m |
-/// | 44 | uint32 | V, vertices |
-/// | 48 | 3 V int16 | positions, world frame, in units of PoseUnit::unit_m |
+/// | 44 | 7 float32 | motion of the mandible in the head |
+/// | 72 | uint32 | V, vertices |
+/// | 76 | 3 V int16 | positions, world frame, in units of PoseUnit::unit_m |
 /// | | C int8, C int8 | drive and activation, in units of 1/127 |
 /// | | V int8 | strain, in units of 0.4 / 127, if the flag is set; -128: none |
 /// | | uint32, 3 M int16 | M and the vertices of the muscles, if the flag is set |
@@ -33,7 +34,7 @@ inline constexpr double kStrainScale = 0.4;    ///< as render::Show::kStrain
 struct PoseFrame {
     std::uint32_t step = 0;
     double t_s = 0;
-    Rigid head = Rigid::Identity();
+    Rigid head = Rigid::Identity(), mandible = Rigid::Identity();
     Points vertices;                    ///< V x 3, m
     Eigen::VectorXd drive, activation;  ///< per column, [-1, 1]
     std::vector<double> strain;         ///< V or none; NaN: no value

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// A new head in Debian's Chromium: a mesh of the folder, landmarks by clicks with their partners, undo, a reload, and a rig from them.
+//
+//   node landmarks.mjs RISORIUS PLAYWRIGHT_FOLDER SOURCE_FOLDER [SCREENSHOT_FOLDER]
+
+import assert from "node:assert/strict";
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+
+import { end, folder, open, shot, source, start, test, until } from "./harness.mjs";
+
+mkdirSync(join(folder, "anna"));
+const mesh = readFileSync(join(source, "models/adult/head.obj"), "utf8");
+writeFileSync(join(folder, "anna/head.obj"), mesh);
+const vertices = mesh.split("\n").filter((line) => line.startsWith("v ")).map((line) => line.split(" ").slice(1, 4).map(Number));
+const truth = Object.fromEntries(Object.entries(JSON.parse(readFileSync(join(source, "models/adult/landmarks.json"), "utf8")).landmarks).map(([id, { vertex }]) => [id, vertices[vertex]]));
+const far = (a, b) => Math.hypot(...a.map((one, k) => one - b[k]));
+
+const url = await start();
+let page = await open(url, { width: 1100, height: 760 });
+const head = () => page.evaluate(() => ({ places: window.studio.newHead().places, chosen: window.studio.newHead().chosen }));
+const show = async () => {
+  await page.locator("#new-head").click();
+  await page.locator("#newhead-mesh option", { hasText: "anna/head.obj" }).waitFor({ state: "attached" });
+  await page.locator("#newhead-mesh").selectOption("anna/head.obj");
+  await until(page, () => window.studio.newHead().vertices?.length > 1000);
+};
+/// Clicks where a landmark is, as a person would: where it is seen.
+const click = async (id) => {
+  const at = await page.evaluate((p) => window.studio.newHead().screenOf(p), truth[id]);
+  await page.mouse.click(at.x, at.y);
+  await until(page, (one) => window.studio.newHead().places[one]?.found === "placed", id);
+};
+
+await test("the mesh of the folder is shown", async () => {
+  await show();
+  assert.equal((await head()).chosen, "prn");
+  assert.match(await page.locator("#newhead-definition").textContent(), /nasal tip/);
+  await shot(page, "newhead");
+});
+
+await test("only meshes below the folder are read", async () => {
+  for (const path of ["../../etc/passwd", "/etc/hostname", "script.json", "anna/../../head.obj", "", join(source, "models/adult/head.obj")])
+    assert.match(await page.evaluate((p) => window.studio.ask({ type: "mesh", path: p }), path), /path: expected a mesh below/, path);
+  assert.match(await page.evaluate(() => window.studio.ask({ type: "mesh", path: "nobody.obj" })), /nobody\.obj/);
+  assert.match(await page.evaluate(() => window.studio.ask({ type: "fit", landmarks: { n: "here" } })), /landmarks\/n: expected/);
+  assert.ok(!existsSync(join(folder, "anna/head.landmarks.json")));
+});
+
+await test("a click puts the landmark where it is, and the next one is asked for", async () => {
+  for (const id of ["prn", "n", "sn", "ls"]) {
+    assert.equal((await head()).chosen, id);
+    await click(id);
+  }
+  const { places } = await head();
+  for (const id of ["prn", "n", "sn", "ls"]) assert.ok(far(places[id].at, truth[id]) < 1, `${id}: ${far(places[id].at, truth[id])} mm`);
+});
+
+await test("a landmark of one side brings its partner, and the camera goes to the next", async () => {
+  for (const id of ["sto", "li", "pg", "me"]) await click(id);
+  assert.equal((await head()).chosen, "en_l");
+  await click("en_l");
+  const { places, chosen } = await head();
+  assert.equal(places.en_r.found, "mirrored");
+  assert.ok(far(places.en_r.at, truth.en_r) < 6, `${far(places.en_r.at, truth.en_r)} mm`);
+  assert.equal(chosen, "ex_l");
+  const at = await page.evaluate((p) => window.studio.newHead().screenOf(p), truth.ex_l);
+  const box = await page.locator("#newhead-stage").boundingBox();
+  assert.ok(Math.hypot(at.x - box.x - box.width / 2, at.y - box.y - box.height / 2) < 90, "the corner of the eye is in the middle of the picture");
+  await shot(page, "newhead-eye");
+});
+
+await test("undo takes the click back, with its partner", async () => {
+  await page.keyboard.press("Control+z");
+  await until(page, () => !window.studio.newHead().places.en_l && !window.studio.newHead().places.en_r);
+  await page.keyboard.press("Control+Shift+z");
+  await until(page, () => window.studio.newHead().places.en_r?.found === "mirrored");
+});
+
+await test("arrows move a landmark by half a millimetre on the surface", async () => {
+  await page.locator('[data-id="prn"]').click();
+  const before = (await head()).places.prn.at;
+  await page.locator("#newhead-stage canvas").focus();
+  await page.keyboard.press("ArrowUp");
+  const after = (await head()).places.prn.at;
+  assert.ok(far(before, after) > 0.2 && far(before, after) < 0.9, `${far(before, after)} mm`);
+  await page.keyboard.press("Control+z");
+});
+
+await test("the rest is proposed, looked at, and accepted by Enter", async () => {
+  await page.locator("#newhead-propose").click();
+  await until(page, () => Object.keys(window.studio.newHead().places).length === 20);
+  assert.match(await page.locator("#newhead-count").textContent(), /^20 of 20 required, 11 to be checked$/);
+  await shot(page, "newhead-proposed");
+  await page.locator("#newhead-stage canvas").focus();
+  for (let left = 11; left > 0; left--) {
+    await page.keyboard.press("Enter");
+    await until(page, (n) => !document.querySelector("#newhead-count").textContent.includes("checked") || document.querySelector("#newhead-count").textContent.includes(`, ${n} to`), left - 1);
+  }
+  const { places } = await head();
+  const errors = Object.entries(places).map(([id, place]) => far(place.at, truth[id]));
+  assert.ok(Math.max(...errors) < 8, `${errors}`);
+});
+
+await test("axe finds nothing to complain of", async () => {
+  const axe = readFileSync(join(process.argv[3], "axe-core/axe.min.js"), "utf8");
+  await page.evaluate(axe);
+  const found = await page.evaluate(async () => (await window.axe.run("#newhead")).violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.target).join(" ")}`));
+  assert.deepEqual(found, []);
+});
+
+await test("a page that is loaded anew has the landmarks", async () => {
+  const before = (await head()).places;
+  await page.close();
+  page = await open(url, { width: 1100, height: 760 });
+  await show();
+  assert.deepEqual((await head()).places, before);
+});
+
+await test("a fit from them gives a rig that smiles", async () => {
+  await page.locator("#newhead-fit").click();
+  await page.waitForFunction(() => /rig is|could be made/.test(document.querySelector("#newhead-told").textContent), null, { timeout: 200000 });
+  assert.equal(await page.locator("#newhead-told").textContent(), "The rig is anna/head.rig.json.", await page.locator("#newhead-text").textContent());
+  assert.ok(existsSync(join(folder, "anna/head.rig.json")));
+  assert.match(await page.locator("#newhead-text").textContent(), /landmarks\s+20 given/);
+  const written = JSON.parse(readFileSync(join(folder, "anna/head.landmarks.json"), "utf8"));
+  assert.equal(Object.keys(written.landmarks).length, 20);
+  assert.ok(far(written.landmarks.prn.xyz, truth.prn) < 1);
+  await shot(page, "newhead-fitted");
+  await page.locator("#newhead-open").click();
+  await until(page, () => /head$|head\.rig/.test(document.title) || document.querySelector("#file-name").textContent.startsWith("new script"));
+  await until(page, () => Object.keys(window.studio.script().script.channels ?? {}).length === 0);
+  await page.locator('.row[data-name="AU12"] input[type=number]').fill("1");
+  await page.locator('.row[data-name="AU12"] input[type=number]').press("Enter");
+  await until(page, () => window.studio.state().overrides.AU12 === 1 && document.querySelector("#twin").textContent.includes("zygomaticus"));
+  await page.waitForTimeout(1500);
+  await shot(page, "newhead-smiles");
+});
+
+await end();

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "tools/risorius/studio_head.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "risorius/core/error.h"
+#include "risorius/core/input_log.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/output_set.h"
+#include "risorius/io/read_mesh.h"
+#include "risorius/report/atomic_file.h"
+#include "risorius/report/run_program.h"
+#include "risorius/view/scene_frame.h"
+
+namespace risorius::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::set<std::string>& mesh_endings() {
+    static const std::set<std::string> endings{".obj",  ".ply", ".stl", ".glb",
+                                               ".gltf", ".fbx", ".dae"};
+    return endings;
+}
+
+/// A rig or a file of landmarks is not written over without asking.
+void ask_to_replace(const JsonCursor& message, const fs::path& file) {
+    const auto replace = message.find("replace");
+    if (!fs::exists(file) || (replace && replace->boolean())) return;
+    message.fail("consent to replace " + in_quotes(file.filename().string()), "none");
+}
+
+}  // namespace
+
+std::string StudioHead::name_of(const fs::path& file) const {
+    return file.lexically_proximate(folder_).generic_string();
+}
+
+std::string StudioHead::meshes() const {
+    constexpr std::size_t kMost = 200;
+    std::vector<std::string> names;
+    std::error_code ignored;
+    for (fs::recursive_directory_iterator at(folder_, fs::directory_options::skip_permission_denied,
+                                             ignored);
+         at != fs::recursive_directory_iterator() && names.size() < kMost; at.increment(ignored)) {
+        const bool hidden = at->path().filename().string().starts_with(".");
+        if (at.depth() > 2 || hidden) at.disable_recursion_pending();
+        if (mesh_endings().contains(at->path().extension().string()) && !hidden)
+            names.push_back(name_of(at->path()));
+    }
+    std::sort(names.begin(), names.end());
+    return json_text(Json{{"type", "meshes"}, {"files", names}});
+}
+
+std::string StudioHead::mesh(const JsonCursor& message) {
+    message.allow_keys({"type", "id", "path"});
+    const JsonCursor path = message.at("path");
+    const fs::path file = fs::weakly_canonical(folder_ / fs::path(path.string()));
+    const fs::path below = file.lexically_relative(folder_);
+    const bool inside = !below.empty() && *below.begin() != ".." && below != ".";
+    if (!inside || !mesh_endings().contains(file.extension().string()))
+        path.fail("a mesh below " + folder_.string());
+    const geom::PolygonMesh mesh = io::read_mesh(file);
+    open_ = Opened{file, mesh.from_file.inverse()};
+    return view::encode_mesh(mesh, name_of(file), name_of(rig_file()));
+}
+
+fs::path StudioHead::rig_file() const {
+    return open_->file.parent_path() / (open_->file.stem().string() + ".rig.json");
+}
+
+fs::path StudioHead::write_landmarks(const JsonCursor& message) const {
+    if (!open_) message.fail("a mesh that is open", "none");
+    Json landmarks = Json::object();
+    const JsonCursor given = message.at("landmarks");
+    for (const std::string& id : given.keys()) {
+        const Vec3 p = (open_->to_file * given.at(id).vec3().homogeneous()).head<3>();
+        landmarks[id] = {{"xyz", {p.x(), p.y(), p.z()}}};
+    }
+    const Json written{{"format", "risorius-landmarks"},
+                       {"version", 1},
+                       {"mesh", open_->file.filename().string()},
+                       {"landmarks", landmarks}};
+    const fs::path file =
+        open_->file.parent_path() / (open_->file.stem().string() + ".landmarks.json");
+    ask_to_replace(message, file);
+    const ReadingFormerOutput may_be_replaced;
+    OutputSet outputs(file.parent_path(), OutputSet::Then::kRunGoesOn);
+    report::write_text(outputs.file(file), json_text(written, 2) + "\n");
+    outputs.commit();
+    return file;
+}
+
+void StudioHead::fit(const JsonCursor& message, const fs::path& landmarks, serve::WebServer& server,
+                     std::function<void(const std::string&)> done) {
+    if (running_) message.fail("one fit at a time", "another that runs");
+    const fs::path rig = rig_file();
+    ask_to_replace(message, rig);
+    std::vector<std::string> command{fs::read_symlink("/proc/self/exe").string(), "fit",
+                                     open_->file.string()};
+    command.insert(command.end(), {"--landmarks", landmarks.string(), "--out", rig.string()});
+    const auto quick = message.find("quick");
+    if (quick && quick->boolean()) command.push_back("--no-calibrate");
+    running_ = true;
+    fit_ = std::make_unique<std::jthread>([this, command, rig = name_of(rig), &server, done] {
+        report::ProgramResult result;
+        try {
+            result = report::run_program(command);
+        } catch (const std::exception& error) {
+            result = {1, error.what()};
+        }
+        const Json told{{"type", "fit"},
+                        {"state", result.exit_code == 0 ? "done" : "failed"},
+                        {"rig", rig},
+                        {"text", result.output}};
+        server.post([this, done, text = json_text(told)] {
+            running_ = false;
+            done(text);
+        });
+    });
+}
+
+}  // namespace risorius::cli

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// A new head in the studio: the meshes of the project, one of them for the page, its landmarks as a file, and `risorius fit` from them.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "risorius/core/json_cursor.h"
+#include "risorius/geom/polygon_mesh.h"
+#include "risorius/serve/web_server.h"
+
+namespace risorius::cli {
+
+class StudioHead {
+  public:
+    /// `folder`: the project, canonical. Files are read and written below it alone.
+    explicit StudioHead(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+    /// {"type": "meshes", "files": ["anna/head.obj"]}
+    std::string meshes() const;
+
+    /// Reads {"type": "mesh", "path": "anna/head.obj"} and returns the mesh for the page (view/scene_frame.h). Throws Error.
+    std::string mesh(const JsonCursor& message);
+
+    /// Writes the landmarks of {"type": "fit" or "save_landmarks", "landmarks": {"n": [x, y, z]}, "replace": true} for the mesh
+    /// that was read last, beside it, as NAME.landmarks.json. Positions are those of the page. Returns the file. Throws Error.
+    std::filesystem::path write_landmarks(const JsonCursor& message) const;
+
+    /// Fits a rig in a process of its own. `done` gets {"type": "fit", "state": "done" or "failed", "rig": ..., "text": ...} on the
+    /// thread of the server. Throws Error while another fit runs, or when the rig exists and "replace" is not true.
+    void fit(const JsonCursor& message, const std::filesystem::path& landmarks,
+             serve::WebServer& server, std::function<void(const std::string&)> done);
+
+    /// Waits for a fit that runs.
+    void finish() { fit_.reset(); }
+
+  private:
+    struct Opened {
+        std::filesystem::path file;
+        Eigen::Matrix4d to_file;  ///< from metres to coordinates of the file
+    };
+    std::string name_of(const std::filesystem::path& file) const;
+    std::filesystem::path rig_file() const;
+
+    std::filesystem::path folder_;
+    std::optional<Opened> open_;
+    std::unique_ptr<std::jthread> fit_;
+    bool running_ = false;
+};
+
+}  // namespace risorius::cli
