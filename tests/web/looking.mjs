@@ -113,7 +113,8 @@ await test("the skull shows through the skin, and its mandible opens with the ja
   await page.keyboard.press("Home");
   await page.evaluate(() => window.studio.ask({ type: "override", channel: "jaw_open", value: 0 }));
   await page.locator("#sight").selectOption("skull");
-  await until(page, () => window.studio.mandible([0, -0.1, 0.08]) !== null);
+  // On a busy machine the bones take their time.
+  await page.waitForFunction(() => window.studio.mandible([0, -0.1, 0.08]) !== null, null, { timeout: 120000 });
   // The chin, and a point near the joints, as the head has them at rest
   const points = () => page.evaluate(() => ["me", "t_l"].map((id) => window.studio.mandible(window.studio.scene().landmarks[id])));
   await until(page, () => window.studio.state().resting);
