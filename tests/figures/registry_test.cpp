@@ -183,6 +183,20 @@ TEST(Registry, ClaimsOfTheThesisAreNarrowWhereItPrintsNumbers) {
     EXPECT_GT(unknown, 7);
 }
 
+TEST(Registry, BandsOfWatchedNumbersAreNarrow) {
+    int watched = 0;
+    for (const Figure& figure : figures()) {
+        const Json json = sample(std::string(figure.id));
+        for (const Json& number : json.value("watched", Json::array())) {
+            ++watched;
+            ASSERT_TRUE(number.contains("low") && number.contains("high")) << number;
+            const double low = number["low"], high = number["high"];
+            EXPECT_TRUE(low <= 0 || high / low < 2.01) << figure.id << " " << number;
+        }
+    }
+    EXPECT_GT(watched, 30);
+}
+
 TEST(Registry, ParallelWorkEndsWithItsFirstFailure) {
     std::vector<int> done(100, 0);
     parallel_for(100, 3, [&](int i) { done[static_cast<std::size_t>(i)] = i; });
