@@ -80,7 +80,7 @@ export async function open(url, viewport = { width: 900, height: 620 }) {
 }
 export const state = (page) => page.evaluate(() => window.studio.state());
 export const scriptOf = (page) => page.evaluate(() => window.studio.script().script);
-export const until = (page, what, argument) => page.waitForFunction(what, argument, { timeout: 30000 });
+export const until = (page, what, argument) => page.waitForFunction(what, argument, { timeout: 90000 });
 /// Waits until the engine has answered all edits.
 export const settled = async (page) => {
   for (let last = -1, now = 0; last !== now; ) {
