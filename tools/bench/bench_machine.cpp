@@ -12,6 +12,7 @@
 
 #include "risorius/animate/animate.h"
 #include "risorius/core/data_folder.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/text_lines.h"
 #include "risorius/core/version.h"
@@ -69,7 +70,7 @@ Json describe_machine() {
             if (colon != std::string_view::npos) cpu = lines.line().substr(colon + 2);
             break;
         }
-    return {{"cpu", cpu}, {"cores", std::thread::hardware_concurrency()}};
+    return json_object({{"cpu", cpu}, {"cores", std::thread::hardware_concurrency()}});
 }
 
 double peak_memory_mb() {
@@ -121,13 +122,13 @@ struct Bench {
             iterations += face.step(drive()).iterations;
             step_ms.push_back(1e3 * stopwatch.seconds());
         }
-        return {{"nodes", face.diagnostics().node_count()},
-                {"tets", face.diagnostics().tet_count()},
-                {"fibres", face.diagnostics().fibre_count()},
-                {"build_s", face.diagnostics().build_s()},
-                {"step_ms", report::median(step_ms)},
-                {"slowest_step_ms", *std::max_element(step_ms.begin(), step_ms.end())},
-                {"mean_iterations", static_cast<double>(iterations) / steps}};
+        return json_object({{"nodes", face.diagnostics().node_count()},
+                            {"tets", face.diagnostics().tet_count()},
+                            {"fibres", face.diagnostics().fibre_count()},
+                            {"build_s", face.diagnostics().build_s()},
+                            {"step_ms", report::median(step_ms)},
+                            {"slowest_step_ms", *std::max_element(step_ms.begin(), step_ms.end())},
+                            {"mean_iterations", static_cast<double>(iterations) / steps}});
     }
 
     // Simulates the same track with and without the standard volume muscles. Steps alternate, so that both run under the same
@@ -161,15 +162,15 @@ struct Bench {
         const auto sum = [](const std::vector<double>& ms) {
             return std::accumulate(ms.begin(), ms.end(), 0.0);
         };
-        return {{"volume_muscles", faces[1].diagnostics().solid_figures().size()},
-                {"nodes", faces[1].diagnostics().node_count()},
-                {"step_ms_without", without},
-                {"step_ms_with", with},
-                {"ratio", with / without},
-                {"ratio_of_means", sum(step_ms[1]) / sum(step_ms[0])},
-                {"mean_iterations_without", static_cast<double>(iterations[0]) / steps},
-                {"mean_iterations_with", static_cast<double>(iterations[1]) / steps},
-                {"largest_volume_error", volume_error}};
+        return json_object({{"volume_muscles", faces[1].diagnostics().solid_figures().size()},
+                            {"nodes", faces[1].diagnostics().node_count()},
+                            {"step_ms_without", without},
+                            {"step_ms_with", with},
+                            {"ratio", with / without},
+                            {"ratio_of_means", sum(step_ms[1]) / sum(step_ms[0])},
+                            {"mean_iterations_without", static_cast<double>(iterations[0]) / steps},
+                            {"mean_iterations_with", static_cast<double>(iterations[1]) / steps},
+                            {"largest_volume_error", volume_error}});
     }
 
     // One second from script to video
@@ -187,14 +188,14 @@ struct Bench {
                 monitor.progress(0.7 + 0.3 * fraction, "from script to video");
             };
         const animate::RunRecord record = animate::animate(request, inner);
-        return {{"seconds_of_video", 1.0},
-                {"threads", request.threads},
-                {"total_s", record.timing.total_s},
-                {"build_s", record.timing.build_s},
-                {"simulate_s", record.timing.simulate_s},
-                {"draw_s", record.timing.draw_s},
-                {"encode_s", record.timing.encode_s},
-                {"real_time_factor", 1.0 / record.timing.total_s}};
+        return json_object({{"seconds_of_video", 1.0},
+                            {"threads", request.threads},
+                            {"total_s", record.timing.total_s},
+                            {"build_s", record.timing.build_s},
+                            {"simulate_s", record.timing.simulate_s},
+                            {"draw_s", record.timing.draw_s},
+                            {"encode_s", record.timing.encode_s},
+                            {"real_time_factor", 1.0 / record.timing.total_s}});
     }
 };
 
@@ -203,22 +204,22 @@ Json bench_rig(const fs::path& rig_file, const BenchOptions& options,
     scene::RigFiles files = scene::read_rig_files(rig_file);
     const ScratchFolder scratch;
     if (options.only_steps)
-        return {{"rig", rig_file.generic_string()},
-                {"name", files.rig.name},
-                {"steps", bench_steps(files, usual_step_benches(), monitor)}};
+        return json_object({{"rig", rig_file.generic_string()},
+                            {"name", files.rig.name},
+                            {"steps", bench_steps(files, usual_step_benches(), monitor)}});
     if (options.only_poses)
-        return {{"rig", rig_file.generic_string()},
-                {"name", files.rig.name},
-                {"poses", bench_poses(files, {}, monitor)}};
+        return json_object({{"rig", rig_file.generic_string()},
+                            {"name", files.rig.name},
+                            {"poses", bench_poses(files, {}, monitor)}});
     if (options.only_shapes)
-        return {{"rig", rig_file.generic_string()},
-                {"name", files.rig.name},
-                {"blend_shapes", bench_shapes(files, options.shapes, monitor)}};
+        return json_object({{"rig", rig_file.generic_string()},
+                            {"name", files.rig.name},
+                            {"blend_shapes", bench_shapes(files, options.shapes, monitor)}});
     if (options.only_pictures)
-        return {{"rig", rig_file.generic_string()},
-                {"name", files.rig.name},
-                {"pictures", bench_pictures(files, scratch.path(), monitor)},
-                {"peak_memory_mb", peak_memory_mb()}};
+        return json_object({{"rig", rig_file.generic_string()},
+                            {"name", files.rig.name},
+                            {"pictures", bench_pictures(files, scratch.path(), monitor)},
+                            {"peak_memory_mb", peak_memory_mb()}});
     const track::ChannelTable channels = files.rig.channels();
     const auto script = track::read_script(
         JsonCursor::from_json(bench_script(rig_file.generic_string(), kTrack_s), "bench"), channels,
@@ -245,27 +246,28 @@ Json stress_rig(const fs::path& rig_file, const BenchOptions& options) {
     const scene::RigFiles files = scene::read_rig_files(rig_file);
     face::Face face(files.rig, files.mesh, face::quality_named(options.quality), files.place());
     const auto penetration = [](const face::Penetration& of) -> Json {
-        return {
-            {"lips", 1e3 * of.lips_m}, {"bone", 1e3 * of.bone_m}, {"eyeball", 1e3 * of.eyeball_m}};
+        return json_object({{"lips", 1e3 * of.lips_m},
+                            {"bone", 1e3 * of.bone_m},
+                            {"eyeball", 1e3 * of.eyeball_m}});
     };
     const report::Stopwatch stopwatch;
     const face::StressReport report = face::stress(
         face, files.rig.channels(), {.steps = options.stress_steps, .seed = options.seed});
-    return {{"rig", rig_file.generic_string()},
-            {"quality", options.quality},
-            {"seed", options.seed},
-            {"tets", face.diagnostics().tet_count()},
-            {"steps", report.steps},
-            {"broken_steps", report.broken_steps},
-            {"most_inverted_tets", report.max_inverted_tets},
-            {"mean_inverted_tets", report.mean_inverted_tets},
-            {"longest_inverted_steps", report.longest_inverted_steps},
-            {"furthest_mm", 1e3 * report.furthest_m},
-            {"usual_penetration_mm", penetration(report.usual_penetration)},
-            {"deepest_penetration_mm", penetration(report.deepest_penetration)},
-            {"inverted_at_rest", report.inverted_at_rest},
-            {"left_at_rest_mm", 1e3 * report.residual_displacement_m},
-            {"step_ms", 1e3 * stopwatch.seconds() / std::max(1, report.steps)}};
+    return json_object({{"rig", rig_file.generic_string()},
+                        {"quality", options.quality},
+                        {"seed", options.seed},
+                        {"tets", face.diagnostics().tet_count()},
+                        {"steps", report.steps},
+                        {"broken_steps", report.broken_steps},
+                        {"most_inverted_tets", report.max_inverted_tets},
+                        {"mean_inverted_tets", report.mean_inverted_tets},
+                        {"longest_inverted_steps", report.longest_inverted_steps},
+                        {"furthest_mm", 1e3 * report.furthest_m},
+                        {"usual_penetration_mm", penetration(report.usual_penetration)},
+                        {"deepest_penetration_mm", penetration(report.deepest_penetration)},
+                        {"inverted_at_rest", report.inverted_at_rest},
+                        {"left_at_rest_mm", 1e3 * report.residual_displacement_m},
+                        {"step_ms", 1e3 * stopwatch.seconds() / std::max(1, report.steps)}});
 }
 
 }  // namespace

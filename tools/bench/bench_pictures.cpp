@@ -8,6 +8,7 @@
 #include "risorius/animate/animate.h"
 #include "risorius/animate/render_job.h"
 #include "risorius/animate/run_render_job.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/sha256.h"
 #include "risorius/face/face.h"
 #include "risorius/face/surfaces.h"
@@ -79,11 +80,11 @@ Json stages(const animate::RenderJob& job) {
     for (int frame = 0; frame < job.frames; ++frame)
         video.append(images[static_cast<std::size_t>(frame / kDrawnEvery)]);
     video.finish();
-    return {{"simulate_ms", report::median(simulate)},
-            {"draw_ms", report::median(draw)},
-            {"read_back_ms", report::median(read_back)},
-            {"measure_ms", report::median(measure)},
-            {"encode_ms", ms(encoding) / job.frames}};
+    return json_object({{"simulate_ms", report::median(simulate)},
+                        {"draw_ms", report::median(draw)},
+                        {"read_back_ms", report::median(read_back)},
+                        {"measure_ms", report::median(measure)},
+                        {"encode_ms", ms(encoding) / job.frames}});
 }
 
 }  // namespace
@@ -112,11 +113,11 @@ Json bench_pictures(const scene::RigFiles& files, const fs::path& folder,
                                                    shown_s.push_back(since.seconds());
                                            },
                                            monitor.stopped});
-            Json one{{"width_px", size.width_px},
-                     {"height_px", size.height_px},
-                     {"draft", draft},
-                     {"fps", (record.frames - static_cast<double>(kWarmUp)) /
-                                 (since.seconds() - shown_s[kWarmUp])}};
+            Json one = json_object({{"width_px", size.width_px},
+                                    {"height_px", size.height_px},
+                                    {"draft", draft},
+                                    {"fps", (record.frames - static_cast<double>(kWarmUp)) /
+                                                (since.seconds() - shown_s[kWarmUp])}});
             one.update(stages(animate::plan_render_job(request, inputs)));
             out.push_back(std::move(one));
         }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/face/diagnostics.h"
 #include "risorius/face/face.h"
 #include "risorius/face/statics.h"
@@ -36,12 +37,13 @@ Json solve_equilibrium(face::Face& face, const std::string& unit, const track::D
     closer.tolerance_m /= kCloser;
     closer.planes_m /= kCloser;
     face.solve_equilibrium(drive.excitation, drive, closer);
-    return {{"name", unit},
-            {"iterations", figures.iterations},
-            {"seconds", seconds},
-            {"at_rest", figures.converged},
-            {"inverted", inverted},
-            {"left_mm", 1e3 * (face.statics().nodes() - at_rest).rowwise().norm().maxCoeff()}};
+    return json_object(
+        {{"name", unit},
+         {"iterations", figures.iterations},
+         {"seconds", seconds},
+         {"at_rest", figures.converged},
+         {"inverted", inverted},
+         {"left_mm", 1e3 * (face.statics().nodes() - at_rest).rowwise().norm().maxCoeff()}});
 }
 
 }  // namespace
@@ -67,10 +69,10 @@ Json bench_poses(const scene::RigFiles& files, const PoseBench& bench,
             poses.push_back(solve_equilibrium(face, bench.units[i], drives[i]));
             done += vertices;
         }
-        out.push_back({{"shell_vertices", vertices},
-                       {"nodes", face.diagnostics().node_count()},
-                       {"tets", face.diagnostics().tet_count()},
-                       {"poses", std::move(poses)}});
+        out.push_back(json_object({{"shell_vertices", vertices},
+                                   {"nodes", face.diagnostics().node_count()},
+                                   {"tets", face.diagnostics().tet_count()},
+                                   {"poses", std::move(poses)}}));
     }
     return out;
 }

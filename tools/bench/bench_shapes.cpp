@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "risorius/blendshapes/shape_player.h"
+#include "risorius/core/json_object.h"
 #include "risorius/report/median.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/scene/script_drives.h"
@@ -59,14 +60,14 @@ Json bench_shapes(const scene::RigFiles& files, const std::filesystem::path& fil
         weights.of(drive);
         weights_ms.push_back(1e3 * part.seconds());
     }
-    return {{"shapes", player.shapes().rig.shapes.size()},
-            {"correctives", player.shapes().rig.correctives.size()},
-            {"vertices", face.head().vertices.rows()},
-            {"moved_vertices", moved},
-            {"frames", frames},
-            {"frame_ms", report::median(frame_ms)},
-            {"slowest_frame_ms", *std::max_element(frame_ms.begin(), frame_ms.end())},
-            {"weights_ms", report::median(weights_ms)}};
+    return json_object({{"shapes", player.shapes().rig.shapes.size()},
+                        {"correctives", player.shapes().rig.correctives.size()},
+                        {"vertices", face.head().vertices.rows()},
+                        {"moved_vertices", moved},
+                        {"frames", frames},
+                        {"frame_ms", report::median(frame_ms)},
+                        {"slowest_frame_ms", *std::max_element(frame_ms.begin(), frame_ms.end())},
+                        {"weights_ms", report::median(weights_ms)}});
 }
 
 }  // namespace risorius::bench

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "risorius/core/json_object.h"
 #include "risorius/report/stopwatch.h"
 #include "risorius/solve/integrator.h"
 #include "risorius/solve/real_time_step.h"
@@ -135,7 +136,7 @@ Json bench_solids(const SolidBenchOptions& options, const ProgressMonitor& monit
             run = fall(cube, preconditioner, ++iterations, options);
         }
         const double nodes = cube.system.size(), ms = middle_of(run.step_ms);
-        out["cases"].push_back(
+        out["cases"].push_back(json_object(
             {{"nodes", cube.system.size()},
              {"iterations", iterations},
              {"step_ms", ms},
@@ -144,7 +145,7 @@ Json bench_solids(const SolidBenchOptions& options, const ProgressMonitor& monit
              {"worst_error", *std::max_element(run.error.begin(), run.error.end())},
              {"converged_step_ms", middle_of(run.converged_ms)},
              {"newton_step_ms",
-              edge <= options.newton_nodes_per_edge ? Json(newton_ms(cube)) : Json(nullptr)}});
+              edge <= options.newton_nodes_per_edge ? Json(newton_ms(cube)) : Json(nullptr)}}));
         if (i > 0)
             out["growth_exponents"].push_back(std::log(ms / ms_before) /
                                               std::log(nodes / nodes_before));

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "risorius/core/json_object.h"
 #include "risorius/face/diagnostics.h"
 #include "risorius/report/median.h"
 #include "risorius/report/stopwatch.h"
@@ -39,7 +40,7 @@ Json pose_keys(int pose, double value) {
         if (on + kPose_s + kSwitch_s < kStepTrack_s)
             keys.push_back({on + kPose_s + kSwitch_s, 0.0});
     }
-    return {{"keys", keys}, {"interpolation", "linear"}};
+    return json_object({{"keys", keys}, {"interpolation", "linear"}});
 }
 
 // The jaw opens to 3/4 in its own pose and to 1/4 in the others.
@@ -50,7 +51,7 @@ Json jaw_keys() {
         const bool own = static_cast<int>(t / kPose_s + 1e-9) % kPoses == 2;
         keys.push_back({t, (own ? 0.375 : 0.125) * (1 - std::cos(kTurn * kJaw_hz * t))});
     }
-    return {{"keys", keys}};
+    return json_object({{"keys", keys}});
 }
 
 using SkinTrack = std::vector<Points>;  // positions of the skin nodes after each step
@@ -87,22 +88,21 @@ StepRun play(const scene::RigFiles& files, const face::DriveAt& drive, const Ste
 track::ScriptDescription step_track(const scene::RigFiles& files) {
     Json blinks = Json::array();
     for (const double t : {0.7, 2.2, 3.3})
-        blinks.push_back({{"blink", Json::object()}, {"start_s", t}});
-    const Json script{{"format", "risorius-script"},
-                      {"version", 1},
-                      {"rig", files.place()},
-                      {"fps", 60},
-                      {"duration_s", kStepTrack_s},
-                      {"seed", 1},
-                      {"channels",
-                       {{"AU12", pose_keys(0, 1.0)},
-                        {"AU6", pose_keys(0, 0.7)},
-                        {"AU9", pose_keys(1, 1.0)},
-                        {"AU10", pose_keys(1, 0.7)},
-                        {"AU25", pose_keys(2, 0.6)},
-                        {"AU18", pose_keys(3, 1.0)},
-                        {"jaw_open", jaw_keys()}}},
-                      {"events", blinks}};
+        blinks.push_back(json_object({{"blink", Json::object()}, {"start_s", t}}));
+    const Json script = json_object({{"format", "risorius-script"},
+                                     {"version", 1},
+                                     {"rig", files.place()},
+                                     {"fps", 60},
+                                     {"duration_s", kStepTrack_s},
+                                     {"seed", 1},
+                                     {"channels", json_object({{"AU12", pose_keys(0, 1.0)},
+                                                               {"AU6", pose_keys(0, 0.7)},
+                                                               {"AU9", pose_keys(1, 1.0)},
+                                                               {"AU10", pose_keys(1, 0.7)},
+                                                               {"AU25", pose_keys(2, 0.6)},
+                                                               {"AU18", pose_keys(3, 1.0)},
+                                                               {"jaw_open", jaw_keys()}})},
+                                     {"events", blinks}});
     return track::read_script(JsonCursor::from_json(script, "bench"), files.rig.channels(),
                               files.rig.facs, files.rig.expressions);
 }
@@ -174,7 +174,7 @@ Json bench_steps(const scene::RigFiles& files, const std::vector<StepBench>& cas
             largest = std::max(largest, off.rowwise().norm().maxCoeff());
             count += off.rows();
         }
-        out.push_back(
+        out.push_back(json_object(
             {{"quality", cases[i].quality.name},
              {"nodes", run.nodes},
              {"tets", run.tets},
@@ -186,7 +186,7 @@ Json bench_steps(const scene::RigFiles& files, const std::vector<StepBench>& cas
              {"mean_step_ms", std::accumulate(run.step_ms.begin(), run.step_ms.end(), 0.0) /
                                   static_cast<double>(run.step_ms.size())},
              {"rms_mm", 1e3 * std::sqrt(squares / static_cast<double>(count))},
-             {"largest_mm", 1e3 * largest}});
+             {"largest_mm", 1e3 * largest}}));
     }
     return out;
 }

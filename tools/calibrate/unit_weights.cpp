@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/face/face.h"
@@ -207,9 +208,9 @@ void write_unit_gains(const std::filesystem::path& file) {
     face::Face face(files.rig, files.mesh, face::quality_named("preview"), files.place());
     for (const auto& [unit, gain] : fitting::fit_units(face, files.rig, {})) {
         std::printf("%-8s muscles %.3f reached %.2f\n", unit.c_str(), gain.muscles, gain.reached);
-        json["unit_gains"][unit] = {{"muscles", gain.muscles},
-                                    {"activation_at", gain.curve.points()},
-                                    {"reached", gain.reached}};
+        json["unit_gains"][unit] = json_object({{"muscles", gain.muscles},
+                                                {"activation_at", gain.curve.points()},
+                                                {"reached", gain.reached}});
     }
     write_file(file, json_text(json, 1) + "\n");
 }

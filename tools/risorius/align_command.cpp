@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/talk/recording.h"
 #include "tools/risorius/commands.h"
@@ -26,14 +27,18 @@ struct AlignArguments {
 
 Json summary_json(const talk::AlignedRecording& aligned) {
     const speech::Utterance& utterance = aligned.alignment.utterance;
-    Json out{{"phones", utterance.phones.size()},  {"words", utterance.words.size()},
-             {"pauses", aligned.alignment.pauses}, {"rate", aligned.rate},
-             {"misfit", aligned.alignment.misfit}, {"doubtful", Json::array()}};
+    Json out = json_object({{"phones", utterance.phones.size()},
+                            {"words", utterance.words.size()},
+                            {"pauses", aligned.alignment.pauses},
+                            {"rate", aligned.rate},
+                            {"misfit", aligned.alignment.misfit},
+                            {"doubtful", Json::array()}});
     for (std::size_t i = 0; i < utterance.words.size(); ++i)
         if (aligned.alignment.words[i].doubtful())
-            out["doubtful"].push_back({{"word", utterance.words[i].text},
-                                       {"start_s", utterance.seconds(utterance.words[i].start)},
-                                       {"misfit", aligned.alignment.words[i].misfit}});
+            out["doubtful"].push_back(
+                json_object({{"word", utterance.words[i].text},
+                             {"start_s", utterance.seconds(utterance.words[i].start)},
+                             {"misfit", aligned.alignment.words[i].misfit}}));
     return out;
 }
 

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/stimuli/batch.h"
@@ -38,13 +39,14 @@ std::string time_text(double seconds) {
 Json balance_json(const std::string& set, const design::Balance& balance) {
     Json factors = Json::object();
     for (const auto& factor : balance.factors)
-        factors[factor.name] = {{"least", factor.min}, {"most", factor.max}};
-    return {{"set", set},
-            {"conditions", balance.used},
-            {"of", balance.all},
-            {"times_of_a_level", factors},
-            {"times_of_a_pair", {{"least", balance.pair_min}, {"most", balance.pair_max}}},
-            {"strength", balance.strength}};
+        factors[factor.name] = json_object({{"least", factor.min}, {"most", factor.max}});
+    return json_object({{"set", set},
+                        {"conditions", balance.used},
+                        {"of", balance.all},
+                        {"times_of_a_level", factors},
+                        {"times_of_a_pair",
+                         json_object({{"least", balance.pair_min}, {"most", balance.pair_max}})},
+                        {"strength", balance.strength}});
 }
 
 void print_plan(const BatchArguments& arguments) {
@@ -57,30 +59,30 @@ void print_plan(const BatchArguments& arguments) {
     } else if (arguments.common.json) {
         Json clips = Json::array();
         for (const stimuli::ClipPlan& clip : plan.clips)
-            clips.push_back({{"stim_id", clip.condition.clip},
-                             {"set", clip.condition.set},
-                             {"control", clip.condition.control.name()},
-                             {"frames", clip.frames},
-                             {"fps", clip.fps}});
+            clips.push_back(json_object({{"stim_id", clip.condition.clip},
+                                         {"set", clip.condition.set},
+                                         {"control", clip.condition.control.name()},
+                                         {"frames", clip.frames},
+                                         {"fps", clip.fps}}));
         Json samples = Json::array();
         for (const auto& [set, sample] : plan.samples)
-            samples.push_back(
+            samples.push_back(json_object(
                 {{"set", set},
                  {"trials", sample.trials},
                  {"units", sample.units},
-                 {"times_of_a_unit", {{"least", sample.least}, {"most", sample.most}}},
-                 {"largest_correlation", sample.largest_correlation}});
+                 {"times_of_a_unit", json_object({{"least", sample.least}, {"most", sample.most}})},
+                 {"largest_correlation", sample.largest_correlation}}));
         Json parts = Json::array();
         for (const auto& [set, balance] : plan.balances)
             parts.push_back(balance_json(set, balance));
-        std::printf("%s\n", json_text(Json{{"name", plan.name},
-                                           {"parts_of_crossings", parts},
-                                           {"samples", samples},
-                                           {"clips", clips},
-                                           {"notes", plan.notes},
-                                           {"frames", frames},
-                                           {"seconds_about", plan.seconds()},
-                                           {"megabytes_about", plan.megabytes()}},
+        std::printf("%s\n", json_text(json_object({{"name", plan.name},
+                                                   {"parts_of_crossings", parts},
+                                                   {"samples", samples},
+                                                   {"clips", clips},
+                                                   {"notes", plan.notes},
+                                                   {"frames", frames},
+                                                   {"seconds_about", plan.seconds()},
+                                                   {"megabytes_about", plan.megabytes()}}),
                                       2)
                                 .c_str());
     } else {
@@ -138,7 +140,7 @@ void run(BatchArguments& arguments) {
     if (arguments.common.json)
         options.report_clip = [](const std::string& clip, const std::string& state,
                                  const std::string& why) {
-            Json event{{"event", state}, {"stim_id", clip}};
+            Json event = json_object({{"event", state}, {"stim_id", clip}});
             if (!why.empty()) event["why"] = why;
             std::printf("%s\n", json_text(event).c_str());
             std::fflush(stdout);

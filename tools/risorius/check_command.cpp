@@ -5,6 +5,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_cursor.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "tools/risorius/check_files.h"
 #include "tools/risorius/commands.h"
@@ -26,11 +27,11 @@ void run(const CheckArguments& arguments) {
         const cli::CheckResult result = cli::check_file(file);
         broken += !result.ok();
         if (!result.ok()) std::fprintf(stderr, "risorius: %s\n", result.error.c_str());
-        report.push_back({{"file", file.generic_string()},
-                          {"format", result.format},
-                          {"ok", result.ok()},
-                          {"error", result.error},
-                          {"notes", result.notes}});
+        report.push_back(json_object({{"file", file.generic_string()},
+                                      {"format", result.format},
+                                      {"ok", result.ok()},
+                                      {"error", result.error},
+                                      {"notes", result.notes}}));
         if (arguments.common.quiet || arguments.common.json || !result.ok()) continue;
         std::printf("%s: %s, fine\n", file.string().c_str(), result.format.c_str());
         for (const std::string& note : result.notes) std::printf("  note: %s\n", note.c_str());

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/figures/figure_page.h"
 #include "risorius/figures/run_figure.h"
@@ -35,8 +36,8 @@ void list(const FigureArguments& arguments) {
     if (arguments.common.json) {
         Json report = Json::array();
         for (const figures::FigureEntry& entry : entries)
-            report.push_back(
-                {{"id", entry.id}, {"title", entry.title}, {"run_time_s", entry.run_time_s}});
+            report.push_back(json_object(
+                {{"id", entry.id}, {"title", entry.title}, {"run_time_s", entry.run_time_s}}));
         std::printf("%s\n", json_text(report, 2).c_str());
         return;
     }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/headmodel/sculpt_head.h"
 #include "risorius/render/hair_styles.h"
@@ -29,7 +30,7 @@ void run_cast(HeadArguments& arguments) {
     cast.ancestry = choice.ancestry;
     const auto files = headmodel::write_cast(cast, arguments.options.out);
     if (arguments.common.json)
-        std::printf("%s\n", json_text(Json{{"files", files}}, 2).c_str());
+        std::printf("%s\n", json_text(json_object({{"files", files}}), 2).c_str());
     else if (!arguments.common.quiet)
         std::printf("%s: %d persons and cast.tsv\n", arguments.options.out.string().c_str(),
                     cast.count);

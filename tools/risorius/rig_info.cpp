@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_object.h"
 #include "risorius/rig/head.h"
 #include "risorius/rig/muscle_force.h"
 #include "risorius/scene/rig_files.h"
@@ -28,14 +29,14 @@ Json muscles_of(const rig::RigDescription& rig, double size) {
     Json out = Json::array();
     for (const rig::Muscle& muscle : rig.muscles.muscles) {
         const rig::MuscleForce force = rig::muscle_force(rig, muscle, size);
-        Json entry{{"id", muscle.id},
-                   {"name", muscle.name},
-                   {"group", muscle.group},
-                   {"paired", muscle.paired},
-                   {"action", muscle.action},
-                   {"min", muscle.tonic ? -1.0 : 0.0},
-                   {"bands", rig::bands_of(rig.atlas, muscle.id)},
-                   {"simulated_as", rig::name_of(force.model)}};
+        Json entry = json_object({{"id", muscle.id},
+                                  {"name", muscle.name},
+                                  {"group", muscle.group},
+                                  {"paired", muscle.paired},
+                                  {"action", muscle.action},
+                                  {"min", muscle.tonic ? -1.0 : 0.0},
+                                  {"bands", rig::bands_of(rig.atlas, muscle.id)},
+                                  {"simulated_as", rig::name_of(force.model)}});
         if (muscle.group == "jaw" || muscle.group == "hyoid")
             entry["moves_jaw"] = true;  // when a script says "jaw": "muscles"
         if (force.model != rig::MuscleModel::kNone) {
@@ -56,29 +57,29 @@ Json rig_info(const std::filesystem::path& rig_file) {
     const rig::Head head = rig::place_head(files.rig, files.mesh, files.place());
     Json out;
     out["name"] = files.rig.name;
-    out["mesh"] = {{"file", files.rig.mesh_file.generic_string()},
-                   {"vertices", files.mesh.vertex_count()},
-                   {"faces", files.mesh.face_count()},
-                   {"metres_per_unit", files.rig.metres_per_unit}};
+    out["mesh"] = json_object({{"file", files.rig.mesh_file.generic_string()},
+                               {"vertices", files.mesh.vertex_count()},
+                               {"faces", files.mesh.face_count()},
+                               {"metres_per_unit", files.rig.metres_per_unit}});
     out["parts"] = parts_of(files);
     out["size"] = head.size;
     out["residual_mm"] = 1e3 * head.frame.residual_m;
-    out["landmarks"] = {{"given", files.rig.landmarks.size()},
-                        {"placed_by_the_atlas", head.warped_landmarks}};
+    out["landmarks"] = json_object(
+        {{"given", files.rig.landmarks.size()}, {"placed_by_the_atlas", head.warped_landmarks}});
     out["muscles"] = muscles_of(files.rig, head.size);
     out["columns"] = files.rig.channels().column_count();
     out["action_units"] = Json::array();
     for (const track::ActionUnit& unit : files.rig.facs.units)
         if (unit.unsupported.empty())
             out["action_units"].push_back(
-                {{"id", unit.id}, {"name", unit.name}, {"sided", unit.sided}});
+                json_object({{"id", unit.id}, {"name", unit.name}, {"sided", unit.sided}}));
     out["expressions"] = Json::array();
     for (const track::Expression& expression : files.rig.expressions.list)
         out["expressions"].push_back(expression.name);
     out["kinematic"] = Json::array();
     for (const track::KinematicChannel& channel : track::kinematic_channels())
-        out["kinematic"].push_back(
-            {{"name", std::string(channel.name)}, {"min", channel.min}, {"max", channel.max}});
+        out["kinematic"].push_back(json_object(
+            {{"name", std::string(channel.name)}, {"min", channel.min}, {"max", channel.max}}));
     return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_object.h"
 #include "risorius/io/gltf_shapes.h"
 
 namespace risorius::cli {
@@ -17,9 +18,9 @@ Json shapes_info(const std::filesystem::path& file) {
     for (const io::MorphTarget& shape : read.targets) {
         const double largest_m =
             shape.delta.rows() > 0 ? shape.delta.rowwise().norm().maxCoeff() : 0.0;
-        out["shapes"].push_back({{"name", shape.name},
-                                 {"vertices", shape.vertex.size()},
-                                 {"largest_mm", 1000 * largest_m}});
+        out["shapes"].push_back(json_object({{"name", shape.name},
+                                             {"vertices", shape.vertex.size()},
+                                             {"largest_mm", 1000 * largest_m}}));
     }
     return out;
 }

@@ -10,6 +10,7 @@
 #include "risorius/core/data_folder.h"
 #include "risorius/core/error.h"
 #include "risorius/core/input_log.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/face/view/skull.h"
@@ -33,9 +34,12 @@ constexpr double kBoneStep_mm = 2.5;     // coarser than in videos: it comes soo
 constexpr int kSkinPicture_px = 1024, kPartPicture_px = 256;
 
 Json new_script(const fs::path& rig) {
-    return Json{{"format", "risorius-script"}, {"version", 1},
-                {"rig", rig.generic_string()}, {"duration_s", 4},
-                {"channels", Json::object()},  {"events", Json::array()}};
+    return json_object({{"format", "risorius-script"},
+                        {"version", 1},
+                        {"rig", rig.generic_string()},
+                        {"duration_s", 4},
+                        {"channels", Json::object()},
+                        {"events", Json::array()}});
 }
 
 /// The format that a JSON file says it has.
@@ -59,7 +63,7 @@ bool is_script(const fs::path& file) {
 }
 
 std::string error_text(const Json& id, const std::string& text) {
-    return json_text(Json{{"type", "error"}, {"id", id}, {"message", text}});
+    return json_text(json_object({{"type", "error"}, {"id", id}, {"message", text}}));
 }
 
 /// The pictures of what a scene has no pictures for.
@@ -232,9 +236,11 @@ void Studio::closed(serve::Peer& peer) {
     // Nobody holds the skin any more.
     const Json state = json_or_null(script_.session->state());
     for (const Json& pull : state["pulls"])
-        script_.session->receive(json_text(Json{{"type", "pull_end"}, {"pull", pull["pull"]}}));
+        script_.session->receive(
+            json_text(json_object({{"type", "pull_end"}, {"pull", pull["pull"]}})));
     if (!pages_.empty())
-        pages_.front().peer->send_text(json_text(Json{{"type", "steers"}, {"steers", true}}));
+        pages_.front().peer->send_text(
+            json_text(json_object({{"type", "steers"}, {"steers", true}})));
 }
 
 void Studio::send_sound(const Page& page) const {
@@ -327,7 +333,7 @@ void Studio::say(serve::Peer& peer, const JsonCursor& message) {
     const double at_s = state["t_s"].get<double>();
     const talk::SayEdit said = talk::say_edit(script, request, at_s);
     const std::vector<std::string> replies = script_.session->receive(
-        json_text(Json{{"type", "edit"}, {"edits", said.edits}, {"gesture", ""}}));
+        json_text(json_object({{"type", "edit"}, {"edits", said.edits}, {"gesture", ""}})));
     bool done = true;
     for (const std::string& reply : replies) {
         const bool document = json_or_null(reply)["type"] == "document";
@@ -338,8 +344,8 @@ void Studio::say(serve::Peer& peer, const JsonCursor& message) {
         done = done && document;
     }
     if (!done) return;
-    script_.session->receive(json_text(Json{{"type", "seek"}, {"t_s", at_s}}));
-    script_.session->receive(json_text(Json{{"type", "play"}}));
+    script_.session->receive(json_text(json_object({{"type", "seek"}, {"t_s", at_s}})));
+    script_.session->receive(json_text(json_object({{"type", "play"}})));
     pose_waits_ = true;
 }
 
@@ -350,10 +356,10 @@ void Studio::new_head(serve::Peer& peer, const std::string& type, const JsonCurs
     message.allow_keys({"type", "id", "landmarks", "replace", "quick"});
     const fs::path file = head_->write_landmarks(message);
     const std::string name = file.lexically_proximate(folder_).generic_string();
-    tell_all(json_text(Json{{"type", "landmarks_saved"}, {"path", name}}));
+    tell_all(json_text(json_object({{"type", "landmarks_saved"}, {"path", name}})));
     if (type != "fit") return;
     head_->fit(message, file, *server_, [this](const std::string& text) { tell_all(text); });
-    tell_all(json_text(Json{{"type", "fit"}, {"state", "running"}}));
+    tell_all(json_text(json_object({{"type", "fit"}, {"state", "running"}})));
 }
 
 void Studio::tick() {
@@ -433,8 +439,8 @@ void Studio::save(const JsonCursor& message) {
     script_.session->saved();
     script_.file = file;
     script_.on_disk = text;
-    tell_all(json_text(
-        Json{{"type", "saved"}, {"path", file.lexically_proximate(folder_).generic_string()}}));
+    tell_all(json_text(json_object(
+        {{"type", "saved"}, {"path", file.lexically_proximate(folder_).generic_string()}})));
     tell_all(script_.session->document());
 }
 
@@ -460,7 +466,7 @@ std::string Studio::files() const {
             names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
     for (const std::string& name : names) samples.push_back(name);
-    return json_text(Json{{"type", "files"}, {"scripts", scripts}, {"samples", samples}});
+    return json_text(json_object({{"type", "files"}, {"scripts", scripts}, {"samples", samples}}));
 }
 
 void Studio::write_recovery() const {

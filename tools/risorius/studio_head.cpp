@@ -7,6 +7,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/input_log.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/io/read_mesh.h"
@@ -52,7 +53,7 @@ std::string StudioHead::meshes() const {
             names.push_back(name_of(at->path()));
     }
     std::sort(names.begin(), names.end());
-    return json_text(Json{{"type", "meshes"}, {"files", names}});
+    return json_text(json_object({{"type", "meshes"}, {"files", names}}));
 }
 
 std::string StudioHead::mesh(const JsonCursor& message) {
@@ -78,12 +79,12 @@ fs::path StudioHead::write_landmarks(const JsonCursor& message) const {
     const JsonCursor given = message.at("landmarks");
     for (const std::string& id : given.keys()) {
         const Vec3 p = (open_->to_file * given.at(id).vec3().homogeneous()).head<3>();
-        landmarks[id] = {{"xyz", {p.x(), p.y(), p.z()}}};
+        landmarks[id] = json_object({{"xyz", {p.x(), p.y(), p.z()}}});
     }
-    const Json written{{"format", "risorius-landmarks"},
-                       {"version", 1},
-                       {"mesh", open_->file.filename().string()},
-                       {"landmarks", landmarks}};
+    const Json written = json_object({{"format", "risorius-landmarks"},
+                                      {"version", 1},
+                                      {"mesh", open_->file.filename().string()},
+                                      {"landmarks", landmarks}});
     const fs::path file =
         open_->file.parent_path() / (open_->file.stem().string() + ".landmarks.json");
     ask_to_replace(message, file);
@@ -112,10 +113,10 @@ void StudioHead::fit(const JsonCursor& message, const fs::path& landmarks, serve
         } catch (const std::exception& error) {
             result = {1, error.what()};
         }
-        const Json told{{"type", "fit"},
-                        {"state", result.exit_code == 0 ? "done" : "failed"},
-                        {"rig", rig},
-                        {"text", result.output}};
+        const Json told = json_object({{"type", "fit"},
+                                       {"state", result.exit_code == 0 ? "done" : "failed"},
+                                       {"rig", rig},
+                                       {"text", result.output}});
         server.post([this, done, text = json_text(told)] {
             running_ = false;
             done(text);

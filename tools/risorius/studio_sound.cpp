@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "risorius/core/input_log.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/media/mono_sound.h"
 
@@ -70,11 +71,11 @@ ScriptSound sound_of(const talk::PlannedSpeech& speech) {
         start_s = static_cast<double>(speech.sound_offset_samples) / sound.rate_hz;
         out.wav = std::make_shared<const std::string>(wav_in_memory(sound));
     }
-    out.message = json_text(Json{{"type", "speech"},
-                                 {"start_s", rounded_s(start_s)},
-                                 {"sound", out.wav != nullptr},
-                                 {"phones", phones},
-                                 {"words", words}});
+    out.message = json_text(json_object({{"type", "speech"},
+                                         {"start_s", rounded_s(start_s)},
+                                         {"sound", out.wav != nullptr},
+                                         {"phones", phones},
+                                         {"words", words}}));
     return out;
 }
 

@@ -7,6 +7,7 @@
 #include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
 #include "risorius/core/input_log.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/core/sha256.h"
@@ -121,7 +122,7 @@ Json compare(const RenderRequest& left_request, const RenderRequest& right_reque
     while (shown < before.frames()) show();
 
     // All files appear together, or none.
-    Json json{{"format", "risorius-comparison"}, {"version", 1}, {"frames", shown}};
+    Json json = json_object({{"format", "risorius-comparison"}, {"version", 1}, {"frames", shown}});
     json["left"] = results[0].record.json();
     json["right"] = results[1].record.json();
     video.finish();

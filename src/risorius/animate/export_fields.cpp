@@ -10,6 +10,7 @@
 #include "risorius/animate/render_job.h"
 #include "risorius/animate/render_session.h"
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/core/version.h"
@@ -151,8 +152,8 @@ class SeriesWriter {
             Json arrays = Json::object();
             for (const auto* data : {&mesh.point_data, &mesh.cell_data})
                 for (const io::VtkArray& array : *data) arrays[array.name] = array.components;
-            meshes_[name] = {
-                {"points", mesh.points.rows()}, {"cells", mesh.cells()}, {"arrays", arrays}};
+            meshes_[name] = json_object(
+                {{"points", mesh.points.rows()}, {"cells", mesh.cells()}, {"arrays", arrays}});
         }
         const io::VtkStep step{.time_s = time_s, .part = 0, .file = file};
         series_[static_cast<std::size_t>(part)].push_back(step);
@@ -247,7 +248,8 @@ Json export_fields(const ExportOptions& options, const ProgressMonitor& monitor)
     Json record = Json::object();
     record["format"] = "risorius-export";
     record["version"] = 1;
-    record["toolkit"] = {{"name", "Risorius"}, {"version", kVersion}, {"compiler", __VERSION__}};
+    record["toolkit"] =
+        json_object({{"name", "Risorius"}, {"version", kVersion}, {"compiler", __VERSION__}});
     record["script"] = job.script_file.path.generic_string();
     record["rig"] = job.rig->rig.path.generic_string();
     record["quality"] = job.quality;

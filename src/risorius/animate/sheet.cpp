@@ -6,6 +6,7 @@
 
 #include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/core/output_set.h"
@@ -131,7 +132,8 @@ Json make_sheet(const SheetOptions& options, const ProgressMonitor& monitor) {
                                 record_text =
                                     outputs.file(report::output_path(options.out, ".json"));
 
-    Json record{{"format", "risorius-sheet"}, {"version", 1}, {"runs", Json::array()}};
+    Json record =
+        json_object({{"format", "risorius-sheet"}, {"version", 1}, {"runs", Json::array()}});
     RenderSession session;
     double begun = 0;
     const double all = static_cast<double>(jobs.size() * cameras.size());

@@ -9,6 +9,7 @@
 #include "risorius/blendshapes/detail/shape_files.h"
 #include "risorius/blendshapes/detail/shapes_page.h"
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/face/diagnostics.h"
@@ -21,7 +22,7 @@ namespace risorius::blendshapes {
 namespace {
 
 Json shape_json(const MadeShape& made, const std::vector<MadeShape>& all) {
-    Json out{{"name", made.goal.name}};
+    Json out = json_object({{"name", made.goal.name}});
     if (made.goal.partner >= 0) {
         out["partner"] = all[static_cast<std::size_t>(made.goal.partner)].goal.name;
         out["half_of"] = made.goal.sides == Sides::kHalves ? Json(made.goal.whole) : Json();
@@ -67,28 +68,29 @@ constexpr long kFittedOfScript = 24;
 Json correctives_json(const Correctives& found) {
     Json kept = Json::array(), drivers = Json::array(), tried = Json::array();
     for (const blendshapes::Corrective& one : found.rig.correctives)
-        kept.push_back({{"name", one.name}, {"vertices", one.shape.vertex.size()}});
+        kept.push_back(json_object({{"name", one.name}, {"vertices", one.shape.vertex.size()}}));
     for (const blendshapes::Driver& driver : found.rig.drivers) drivers.push_back(driver.name);
     for (const TriedCorrective& one : found.tried)
-        tried.push_back({{"name", one.name},
-                         {"max_mm", 1e3 * one.max_m},
-                         {"rms_mm", 1e3 * one.rms_m},
-                         {"at_rest", one.at_rest},
-                         {"put_right", one.corrected}});
-    return {{"kept", kept}, {"terms", drivers}, {"tried", tried}, {"bytes", found.bytes}};
+        tried.push_back(json_object({{"name", one.name},
+                                     {"max_mm", 1e3 * one.max_m},
+                                     {"rms_mm", 1e3 * one.rms_m},
+                                     {"at_rest", one.at_rest},
+                                     {"put_right", one.corrected}}));
+    return json_object(
+        {{"kept", kept}, {"terms", drivers}, {"tried", tried}, {"bytes", found.bytes}});
 }
 
 Json tracks_json(const std::vector<TrackError>& tracks) {
     Json out = Json::array();
     for (const TrackError& track : tracks)
-        out.push_back({{"name", track.name},
-                       {"frames", track.frames},
-                       {"rms_mm", 1e3 * track.rms_m},
-                       {"max_mm", 1e3 * track.max_m},
-                       {"worst_frame", track.frame_of(track.worst)},
-                       {"worst_vertex", track.worst_vertex},
-                       {"rms_without_correctives_mm", 1e3 * track.plain_rms_m},
-                       {"max_without_correctives_mm", 1e3 * track.plain_max_m}});
+        out.push_back(json_object({{"name", track.name},
+                                   {"frames", track.frames},
+                                   {"rms_mm", 1e3 * track.rms_m},
+                                   {"max_mm", 1e3 * track.max_m},
+                                   {"worst_frame", track.frame_of(track.worst)},
+                                   {"worst_vertex", track.worst_vertex},
+                                   {"rms_without_correctives_mm", 1e3 * track.plain_rms_m},
+                                   {"max_without_correctives_mm", 1e3 * track.plain_max_m}}));
     return out;
 }
 
@@ -199,27 +201,26 @@ Json ShapesReport::json() const {
     for (const MadeShape& made : shapes.list) list.push_back(shape_json(made, shapes.list));
     for (const auto& [shape, why] : left_out) left[shape] = why;
     for (const auto& [file, size] : sizes) bytes[file] = size;
-    return {{"format", "risorius-shapes-certificate"},
-            {"version", 1},
-            {"name", name},
-            {"rig", rig},
-            {"set", set},
-            {"quality", quality},
-            {"vertices", vertices},
-            {"nodes", nodes},
-            {"mirrored", shapes.mirrored},
-            {"limits",
-             {{"volume_change", limits.volume_ratio},
-              {"penetration_mm", 1e3 * limits.penetration_m},
-              {"lid_gap_mm", 1e3 * limits.lid_gap_m},
-              {"asymmetry_mm", 1e3 * limits.asymmetry_m}}},
-            {"beyond_limits", complaints()},
-            {"worst", worst_of(shapes)},
-            {"shapes", list},
-            {"linear_rig", tracks_json(tracks)},
-            {"correctives", correctives_json(correctives)},
-            {"left_out", left},
-            {"bytes", bytes}};
+    return json_object({{"format", "risorius-shapes-certificate"},
+                        {"version", 1},
+                        {"name", name},
+                        {"rig", rig},
+                        {"set", set},
+                        {"quality", quality},
+                        {"vertices", vertices},
+                        {"nodes", nodes},
+                        {"mirrored", shapes.mirrored},
+                        {"limits", json_object({{"volume_change", limits.volume_ratio},
+                                                {"penetration_mm", 1e3 * limits.penetration_m},
+                                                {"lid_gap_mm", 1e3 * limits.lid_gap_m},
+                                                {"asymmetry_mm", 1e3 * limits.asymmetry_m}})},
+                        {"beyond_limits", complaints()},
+                        {"worst", worst_of(shapes)},
+                        {"shapes", list},
+                        {"linear_rig", tracks_json(tracks)},
+                        {"correctives", correctives_json(correctives)},
+                        {"left_out", left},
+                        {"bytes", bytes}});
 }
 
 ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& monitor) {

@@ -12,6 +12,7 @@
 #include "risorius/core/counter_rng.h"
 #include "risorius/core/error.h"
 #include "risorius/core/existing_file.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/design/table.h"
@@ -366,7 +367,7 @@ Json with_units(Json script, const std::vector<UnitCourse>& units, double length
             for (const UnitCourse* course : courses) value = std::max(value, course->at(t));
             keys.push_back({t, rounded_key(value)});
         }
-        script["channels"][name] = {{"keys", std::move(keys)}};
+        script["channels"][name] = json_object({{"keys", std::move(keys)}});
     }
     return script;
 }

@@ -11,6 +11,7 @@
 
 #include "risorius/core/data_folder.h"
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/read_file.h"
 #include "risorius/core/version.h"
@@ -137,7 +138,8 @@ Json results_of_all(const std::vector<ShownFigure>& figures) {
     Json json = Json::object();
     json["format"] = "risorius-figures";
     json["version"] = 1;
-    json["toolkit"] = {{"name", "Risorius"}, {"version", kVersion}, {"compiler", __VERSION__}};
+    json["toolkit"] =
+        json_object({{"name", "Risorius"}, {"version", kVersion}, {"compiler", __VERSION__}});
     json["passes"] = std::all_of(figures.begin(), figures.end(),
                                  [](const ShownFigure& figure) { return figure.result.passes(); });
     json["figures"] = Json::array();
@@ -280,11 +282,12 @@ FigureReport run_figures(const FigureOptions& options, const ProgressMonitor& mo
 
     // Runs each figure.
     const report::Stopwatch total;
-    Json timing = {{"format", "risorius-timing"}, {"version", 1}, {"figures", Json::array()}};
+    Json timing =
+        json_object({{"format", "risorius-timing"}, {"version", 1}, {"figures", Json::array()}});
     std::vector<ShownFigure> figures;
     for (Run::Done& done : Run(options, monitor, jobs).all(staged.partial())) {
-        timing["figures"].push_back(
-            {{"id", done.shown.result.id}, {"run_s", done.run_s}, {"write_s", done.write_s}});
+        timing["figures"].push_back(json_object(
+            {{"id", done.shown.result.id}, {"run_s", done.run_s}, {"write_s", done.write_s}}));
         figures.push_back(std::move(done.shown));
     }
 

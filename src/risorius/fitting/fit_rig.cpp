@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/data_folder.h"
+#include "risorius/core/json_object.h"
 #include "risorius/face/diagnostics.h"
 #include "risorius/fitting/detail/fit_landmarks.h"
 #include "risorius/fitting/detail/fit_page.h"
@@ -409,26 +410,27 @@ Json FitReport::json() const {
     json["dropped_tets"] = dropped_tets;
     json["inverted_tets"] = inverted_tets;
     json["fibres"] = fibres;
-    json["bone"] = {{"thinnest_mm", bone.thinnest_mm},
-                    {"thickest_mm", bone.thickest_mm},
-                    {"mean_mm", bone.mean_mm},
-                    {"through_skin", bone.through_skin}};
+    json["bone"] = json_object({{"thinnest_mm", bone.thinnest_mm},
+                                {"thickest_mm", bone.thickest_mm},
+                                {"mean_mm", bone.mean_mm},
+                                {"through_skin", bone.through_skin}});
     json["lips_cut"] = lips_cut;
     json["eyes"] = eyes;
     json["teeth"] = teeth;
-    json["expressions"] = {{"difference_before", difference_before}, {"difference", difference}};
+    json["expressions"] =
+        json_object({{"difference_before", difference_before}, {"difference", difference}});
     for (const auto& [unit, gain] : unit_gains)
-        json["unit_gains"][unit] = {{"muscles", gain.muscles},
-                                    {"activation_at", gain.curve.points()},
-                                    {"reached", gain.reached}};
+        json["unit_gains"][unit] = json_object({{"muscles", gain.muscles},
+                                                {"activation_at", gain.curve.points()},
+                                                {"reached", gain.reached}});
     json["strengths"] = Json::array();
     for (const MuscleStrength& m : strengths)
-        json["strengths"].push_back({{"muscle", m.muscle},
-                                     {"strength", m.strength},
-                                     {"stretch", m.stretch},
-                                     {"target_stretch", m.target_stretch},
-                                     {"at_limit", m.at_limit},
-                                     {"converged", m.converged}});
+        json["strengths"].push_back(json_object({{"muscle", m.muscle},
+                                                 {"strength", m.strength},
+                                                 {"stretch", m.stretch},
+                                                 {"target_stretch", m.target_stretch},
+                                                 {"at_limit", m.at_limit},
+                                                 {"converged", m.converged}}));
     json["notes"] = notes;
     return json;
 }

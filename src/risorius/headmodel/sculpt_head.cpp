@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/data_folder.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/fitting/fit_rig.h"
@@ -283,17 +284,18 @@ Json SculptReport::json() const {
     json["identity"] = headmodel::identity_json(identity);
     json["worst_deviation"] = quality.worst_deviation();
     for (const headmodel::MeasureScore& m : quality.measures)
-        json["measures"][m.measure] = {{"length_mm", m.length_mm}, {"deviation", m.deviation}};
+        json["measures"][m.measure] =
+            json_object({{"length_mm", m.length_mm}, {"deviation", m.deviation}});
     json["self_intersections"] = quality.self_intersections;
     json["quad_share"] = quality.quad_fraction;
     json["unusual_valence_share"] = quality.unusual_valence_fraction;
     json["mirror_error_mm"] = quality.mirror_error_mm;
-    json["aspect"] = {{"median", quality.aspect_median},
-                      {"of_99", quality.aspect_99},
-                      {"greatest", quality.aspect_worst}};
-    json["layout"] = {{"stretch_low", quality.stretch_low},
-                      {"stretch_high", quality.stretch_high},
-                      {"turned_over", quality.turned_over}};
+    json["aspect"] = json_object({{"median", quality.aspect_median},
+                                  {"of_99", quality.aspect_99},
+                                  {"greatest", quality.aspect_worst}});
+    json["layout"] = json_object({{"stretch_low", quality.stretch_low},
+                                  {"stretch_high", quality.stretch_high},
+                                  {"turned_over", quality.turned_over}});
     json["notes"] = notes;
     json[report::kFilesKey] = files;
     return json;

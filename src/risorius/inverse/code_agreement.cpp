@@ -9,6 +9,7 @@
 #include <set>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/text_lines.h"
 
 namespace risorius::inverse {
@@ -142,18 +143,18 @@ Agreement code_agreement(const std::filesystem::path& sheet, const std::filesyst
 Json Agreement::json() const {
     Json list = Json::array();
     for (const UnitAgreement& one : units)
-        list.push_back({{"unit", "AU" + std::to_string(one.unit)},
-                        {"shown", one.shown},
-                        {"seen", one.seen},
-                        {"falsely_seen", one.falsely_seen},
-                        {"kappa", std::isnan(one.kappa) ? Json() : Json(one.kappa)},
-                        {"levels", one.levels},
-                        {"levels_within_1", one.levels_within_1}});
-    return {{"format", "risorius-code-agreement"},
-            {"version", 1},
-            {"clips", clips},
-            {"index", index},
-            {"units", list}};
+        list.push_back(json_object({{"unit", "AU" + std::to_string(one.unit)},
+                                    {"shown", one.shown},
+                                    {"seen", one.seen},
+                                    {"falsely_seen", one.falsely_seen},
+                                    {"kappa", std::isnan(one.kappa) ? Json() : Json(one.kappa)},
+                                    {"levels", one.levels},
+                                    {"levels_within_1", one.levels_within_1}}));
+    return json_object({{"format", "risorius-code-agreement"},
+                        {"version", 1},
+                        {"clips", clips},
+                        {"index", index},
+                        {"units", list}});
 }
 
 }  // namespace risorius::inverse

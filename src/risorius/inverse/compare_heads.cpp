@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/face/face.h"
 #include "risorius/scene/landmark_displacements.h"
 #include "risorius/scene/rig_files.h"
@@ -37,15 +38,18 @@ double HeadComparison::mean_difference() const {
 Json HeadComparison::json() const {
     Json list = Json::array();
     for (const HeadDifference& one : expressions)
-        list.push_back({{"name", one.expression},
-                        {"difference", one.difference},
-                        {"cosine", one.cosine},
-                        {"length_ratio", one.length_ratio},
-                        {"landmark_mm", one.landmark_mm},
-                        {"worst_landmark", one.worst}});
-    return {
-        {"format", "risorius-head-comparison"}, {"version", 1},       {"rig", rig}, {"like", like},
-        {"mean_difference", mean_difference()}, {"expressions", list}};
+        list.push_back(json_object({{"name", one.expression},
+                                    {"difference", one.difference},
+                                    {"cosine", one.cosine},
+                                    {"length_ratio", one.length_ratio},
+                                    {"landmark_mm", one.landmark_mm},
+                                    {"worst_landmark", one.worst}}));
+    return json_object({{"format", "risorius-head-comparison"},
+                        {"version", 1},
+                        {"rig", rig},
+                        {"like", like},
+                        {"mean_difference", mean_difference()},
+                        {"expressions", list}});
 }
 
 HeadComparison compare_heads(const std::filesystem::path& rig, const std::filesystem::path& like,

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/face/diagnostics.h"
 #include "risorius/face/face.h"
@@ -46,9 +47,12 @@ Json attempt_json(const Attempt& attempt, const track::ChannelTable& channels) {
 }
 
 Json means_json(const ScoreMeans& means) {
-    return {{"expressions", means.count},       {"cosine", means.cosine},
-            {"least_cosine", means.min_cosine}, {"relative_error", means.relative},
-            {"rms_mm", 1e3 * means.rms_m},      {"landmark_mm", 1e3 * means.landmark_m}};
+    return json_object({{"expressions", means.count},
+                        {"cosine", means.cosine},
+                        {"least_cosine", means.min_cosine},
+                        {"relative_error", means.relative},
+                        {"rms_mm", 1e3 * means.rms_m},
+                        {"landmark_mm", 1e3 * means.landmark_m}});
 }
 
 // Approximate fraction of the run time that is spent on equilibria; the rest draws pictures.
@@ -152,25 +156,26 @@ std::vector<ExpressionGroup> Evaluation::groups() const {
 Json Evaluation::json() const {
     Json list = Json::array();
     for (const EvaluatedExpression& one : expressions) {
-        Json entry{{"name", one.name}, {"table", attempt_json(one.table, channels)}};
+        Json entry =
+            json_object({{"name", one.name}, {"table", attempt_json(one.table, channels)}});
         if (one.fitted) entry["fitted"] = attempt_json(*one.fitted, channels);
         list.push_back(entry);
     }
     Json sums = Json::object();
     for (const ExpressionGroup& group : groups()) {
         const ScoreMeans by_fit = means(group.names, true);
-        sums[group.key] = {{"table", means_json(means(group.names, false))}};
+        sums[group.key] = json_object({{"table", means_json(means(group.names, false))}});
         if (by_fit.count > 0) sums[group.key]["fitted"] = means_json(by_fit);
     }
-    return {{"format", "risorius-evaluation"},
-            {"version", 1},
-            {"name", name},
-            {"rig", rig},
-            {"shapes", shapes},
-            {"nodes", nodes},
-            {"calibrated_on", calibrated_on},
-            {"means", sums},
-            {"expressions", list}};
+    return json_object({{"format", "risorius-evaluation"},
+                        {"version", 1},
+                        {"name", name},
+                        {"rig", rig},
+                        {"shapes", shapes},
+                        {"nodes", nodes},
+                        {"calibrated_on", calibrated_on},
+                        {"means", sums},
+                        {"expressions", list}});
 }
 
 Evaluation evaluate(const EvaluateOptions& options, const ProgressMonitor& monitor) {

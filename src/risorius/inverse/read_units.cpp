@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/face/face.h"
 #include "risorius/face/surfaces.h"
@@ -29,10 +30,10 @@ namespace {
 constexpr const char* kNeutralPicture = "pictures/neutral.png";
 
 Json lengths_json(const scene::FaceLengths& lengths) {
-    return {{"lid_aperture_mm", lengths.lid_aperture},
-            {"mouth_width_mm", lengths.mouth_width},
-            {"lip_gap_mm", lengths.lip_gap},
-            {"corner_height_mm", lengths.corner_height}};
+    return json_object({{"lid_aperture_mm", lengths.lid_aperture},
+                        {"mouth_width_mm", lengths.mouth_width},
+                        {"lip_gap_mm", lengths.lip_gap},
+                        {"corner_height_mm", lengths.corner_height}});
 }
 
 Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -44,22 +45,22 @@ Json UnitReadings::json() const {
     for (const scene::UnitReading& one : units) {
         Json marks = Json::object();
         for (const scene::LandmarkReading& mark : one.landmarks)
-            marks[mark.landmark] = {{"target_mm", vector_json(mark.target_mm)},
-                                    {"moved_mm", vector_json(mark.moved_mm)},
-                                    {"gain", mark.gain}};
-        list.push_back({{"unit", one.unit},
-                        {"name", one.name},
-                        {"gain", one.gain},
-                        {"response", one.response},
-                        {"change", lengths_json(one.change)},
-                        {"landmarks", marks},
-                        {"in_equilibrium", one.in_equilibrium}});
+            marks[mark.landmark] = json_object({{"target_mm", vector_json(mark.target_mm)},
+                                                {"moved_mm", vector_json(mark.moved_mm)},
+                                                {"gain", mark.gain}});
+        list.push_back(json_object({{"unit", one.unit},
+                                    {"name", one.name},
+                                    {"gain", one.gain},
+                                    {"response", one.response},
+                                    {"change", lengths_json(one.change)},
+                                    {"landmarks", marks},
+                                    {"in_equilibrium", one.in_equilibrium}}));
     }
-    return {{"format", "risorius-unit-readings"},
-            {"version", 1},
-            {"rig", rig},
-            {"neutral", lengths_json(neutral)},
-            {"units", list}};
+    return json_object({{"format", "risorius-unit-readings"},
+                        {"version", 1},
+                        {"rig", rig},
+                        {"neutral", lengths_json(neutral)},
+                        {"units", list}});
 }
 
 namespace {

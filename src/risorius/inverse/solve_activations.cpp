@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/parallel.h"
 #include "risorius/face/face.h"
@@ -224,7 +225,7 @@ Json script_of(const SolveReport& report, const SolveOptions& options) {
             key(from_s + kRamp_s + kHold_s, v);
             key(from_s + each_s, 0);
         }
-        Json channel{{"keys", keys}, {"interpolation", "linear"}};
+        Json channel = json_object({{"keys", keys}, {"interpolation", "linear"}});
         if (muscle) channel["activation"] = true;
         channels[name] = channel;
     };
@@ -235,17 +236,18 @@ Json script_of(const SolveReport& report, const SolveOptions& options) {
     for (int k = 0; k < track::kKinematicCount; ++k)
         add(std::string(track::kinematic_channels()[static_cast<std::size_t>(k)].name), false,
             [k](const track::Drive& drive) { return drive.at(static_cast<Kinematic>(k)); });
-    return {{"format", "risorius-script"},
-            {"version", 1},
-            {"rig", fs::absolute(options.rig)
-                        .lexically_normal()
-                        .lexically_proximate(fs::absolute(options.out).lexically_normal())
-                        .generic_string()},
-            {"fps", report.sequence ? options.fps : kShapeFps},
-            {"duration_s", duration_s},
-            {"seed", 1},
-            {"motion", "quasi_static"},
-            {"channels", channels}};
+    return json_object(
+        {{"format", "risorius-script"},
+         {"version", 1},
+         {"rig", fs::absolute(options.rig)
+                     .lexically_normal()
+                     .lexically_proximate(fs::absolute(options.out).lexically_normal())
+                     .generic_string()},
+         {"fps", report.sequence ? options.fps : kShapeFps},
+         {"duration_s", duration_s},
+         {"seed", 1},
+         {"motion", "quasi_static"},
+         {"channels", channels}});
 }
 
 }  // namespace
@@ -259,7 +261,7 @@ double SolveReport::rms_m() const {
 Json SolveReport::json() const {
     Json list = Json::array();
     for (const SolvedDrive& one : solved) {
-        Json entry{{"name", one.name}};
+        Json entry = json_object({{"name", one.name}});
         if (sequence) entry["time_s"] = one.time_s;
         entry["rms_mm"] = 1e3 * one.rms_m;
         entry["max_mm"] = 1e3 * one.max_m;
@@ -267,15 +269,15 @@ Json SolveReport::json() const {
         entry["drive"] = rig::drive_json(one.drive, channels);
         list.push_back(entry);
     }
-    Json json{{"format", "risorius-solve"},
-              {"version", 1},
-              {"name", name},
-              {"rig", rig},
-              {"given", given},
-              {"kind", sequence ? "frames" : "shapes"},
-              {"points", points},
-              {"rms_mm", 1e3 * rms_m()},
-              {"solved", list}};
+    Json json = json_object({{"format", "risorius-solve"},
+                             {"version", 1},
+                             {"name", name},
+                             {"rig", rig},
+                             {"given", given},
+                             {"kind", sequence ? "frames" : "shapes"},
+                             {"points", points},
+                             {"rms_mm", 1e3 * rms_m()},
+                             {"solved", list}});
     if (!notes.empty()) json["notes"] = notes;
     return json;
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/motion/detail/reduce_keys.h"
@@ -105,7 +106,7 @@ Json channels_of(const RecordedMotion& motion, const rig::RigDescription& rig, d
         for (const track::Key& key : reduce_keys(motion.times_s, values, most))
             keys.push_back({rounded(key.time_s, 1e-6), rounded(key.value, 1e-5)});
         report.channels.push_back({track.channel, *min, *max, static_cast<int>(keys.size())});
-        Json channel{{"keys", std::move(keys)}, {"interpolation", "linear"}};
+        Json channel = json_object({{"keys", std::move(keys)}, {"interpolation", "linear"}});
         if (track::kinematic_named(track.channel).empty()) channel["activation"] = true;
         out[track.channel] = std::move(channel);
     }
@@ -127,27 +128,27 @@ long ImportReport::values() const {
 Json ImportReport::json() const {
     Json listed = Json::array();
     for (const ImportedChannel& channel : channels)
-        listed.push_back({{"name", channel.name},
-                          {"min", channel.min},
-                          {"max", channel.max},
-                          {"keys", channel.keys}});
-    return {{"format", "risorius-import"},
-            {"version", 1},
-            {"file", file},
-            {"script", script},
-            {"as", format},
-            {"fps", fps},
-            {"duration_s", duration_s},
-            {"samples", samples},
-            {"lost", lost},
-            {"unseen", unseen},
-            {"faded", faded},
-            {"values", values()},
-            {"keys", keys()},
-            {"channels", std::move(listed)},
-            {"still", still},
-            {"unmapped", unmapped},
-            {"notes", notes}};
+        listed.push_back(json_object({{"name", channel.name},
+                                      {"min", channel.min},
+                                      {"max", channel.max},
+                                      {"keys", channel.keys}}));
+    return json_object({{"format", "risorius-import"},
+                        {"version", 1},
+                        {"file", file},
+                        {"script", script},
+                        {"as", format},
+                        {"fps", fps},
+                        {"duration_s", duration_s},
+                        {"samples", samples},
+                        {"lost", lost},
+                        {"unseen", unseen},
+                        {"faded", faded},
+                        {"values", values()},
+                        {"keys", keys()},
+                        {"channels", std::move(listed)},
+                        {"still", still},
+                        {"unmapped", unmapped},
+                        {"notes", notes}});
 }
 
 ImportReport import_motion(const ImportOptions& options) {
@@ -171,17 +172,18 @@ ImportReport import_motion(const ImportOptions& options) {
                     format_number(std::round(report.duration_s)) + " s");
     Json channels = channels_of(motion, rig, options.tolerance, report);
     const char* how = options.motion == track::Motion::kDynamic ? "dynamic" : "quasi_static";
-    const Json script{
-        {"format", "risorius-script"},
-        {"version", 1},
-        {"rig", fs::absolute(options.rig)
-                    .lexically_normal()
-                    .lexically_proximate(fs::absolute(options.out).lexically_normal().parent_path())
-                    .generic_string()},
-        {"fps", fps},
-        {"duration_s", rounded(report.duration_s, 1e-6)},
-        {"motion", how},
-        {"channels", std::move(channels)}};
+    const Json script = json_object(
+        {{"format", "risorius-script"},
+         {"version", 1},
+         {"rig",
+          fs::absolute(options.rig)
+              .lexically_normal()
+              .lexically_proximate(fs::absolute(options.out).lexically_normal().parent_path())
+              .generic_string()},
+         {"fps", fps},
+         {"duration_s", rounded(report.duration_s, 1e-6)},
+         {"motion", how},
+         {"channels", std::move(channels)}});
     write_file(options.out, json_text(script, 1) + "\n");
     return report;
 }

@@ -7,6 +7,7 @@
 
 #include "risorius/core/data_folder.h"
 #include "risorius/core/existing_file.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/rig/calibration.h"
@@ -384,9 +385,9 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     json["skin"] = fields_of(rig.skin);
     json["facs"] = table("facs.json");
     for (const auto& [unit, gain] : rig.unit_gains)
-        json["unit_gains"][unit] = {{"muscles", gain.muscles},
-                                    {"activation_at", gain.curve.points()},
-                                    {"reached", gain.reached}};
+        json["unit_gains"][unit] = json_object({{"muscles", gain.muscles},
+                                                {"activation_at", gain.curve.points()},
+                                                {"reached", gain.reached}});
     json["expressions"] = table("expressions.json");
     json["appearance"] = fields_of(rig.appearance);
     // Rigs that ask for no hair and no lines stay as they were before there were any.

@@ -5,19 +5,20 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_object.h"
 #include "risorius/face/surfaces.h"
 
 namespace risorius::scene {
 
 Json ExpressionScore::json() const {
-    return {{"cosine", cosine},
-            {"relative_error", relative},
-            {"rms_mm", 1e3 * rms_m},
-            {"rms_moved_mm", 1e3 * rms_moved_m},
-            {"max_mm", 1e3 * max_m},
-            {"landmark_mm", 1e3 * landmark_m},
-            {"measured_peak_mm", 1e3 * peak_m},
-            {"simulated_peak_mm", 1e3 * simulated_peak_m}};
+    return json_object({{"cosine", cosine},
+                        {"relative_error", relative},
+                        {"rms_mm", 1e3 * rms_m},
+                        {"rms_moved_mm", 1e3 * rms_moved_m},
+                        {"max_mm", 1e3 * max_m},
+                        {"landmark_mm", 1e3 * landmark_m},
+                        {"measured_peak_mm", 1e3 * peak_m},
+                        {"simulated_peak_mm", 1e3 * simulated_peak_m}});
 }
 
 Eigen::VectorXd vertex_areas(const Triangles& triangles, const Points& rest) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/rig/expression_drive.h"
 
 namespace risorius::scene {
@@ -53,7 +54,8 @@ DisplacementTable read_landmark_displacements(const std::filesystem::path& file)
 }
 
 Json landmark_displacements_json(const DisplacementTable& ways, const std::string& source) {
-    Json json = {{"format", "risorius-landmark-ways"}, {"version", 1}, {"source", source}};
+    Json json =
+        json_object({{"format", "risorius-landmark-ways"}, {"version", 1}, {"source", source}});
     for (const auto& [name, table] : ways)
         for (const auto& [id, way] : table)
             for (int k = 0; k < 3; ++k)

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/existing_file.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 
 namespace risorius::speech {
@@ -52,7 +53,7 @@ Phone phone_of(const JsonCursor& item) {
 Json spans_json(const std::vector<Span>& spans) {
     Json out = Json::array();
     for (const Span& span : spans)
-        out.push_back({{"text", span.text}, {"start", span.start}, {"end", span.end}});
+        out.push_back(json_object({{"text", span.text}, {"start", span.start}, {"end", span.end}}));
     return out;
 }
 
@@ -137,7 +138,7 @@ Utterance read_utterance(const std::filesystem::path& file, const PhoneTable& ta
 }
 
 std::string utterance_text(const Utterance& utterance) {
-    Json json{{"format", "risorius-utterance"}, {"version", 1}};
+    Json json = json_object({{"format", "risorius-utterance"}, {"version", 1}});
     json["rate_hz"] = utterance.rate_hz;
     json["samples"] = utterance.samples;
     if (!utterance.language.empty()) json["language"] = utterance.language;
@@ -145,7 +146,7 @@ std::string utterance_text(const Utterance& utterance) {
     // One phone a line: the file is read by people, too.
     json["phones"] = Json::array();
     for (const Phone& phone : utterance.phones) {
-        Json one{{"symbol", phone.symbol}};
+        Json one = json_object({{"symbol", phone.symbol}});
         if (phone.length_mark) one["length_mark"] = phone.length_mark;
         if (phone.stress) one["stress"] = phone.stress;
         one["start"] = phone.start;

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/output_set.h"
 #include "risorius/core/parallel.h"
 #include "risorius/design/conditions.h"
@@ -155,18 +156,19 @@ BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped)
 
 Json BatchReport::json() const {
     Json list = Json::array();
-    for (const auto& [clip, why] : failed) list.push_back({{"stim_id", clip}, {"why", why}});
-    return {{"format", "risorius-batch"},
-            {"version", 1},
-            {"name", name},
-            {"made", made},
-            {"kept", kept},
-            {"elsewhere", elsewhere},
-            {"unmeasured", unmeasured},
-            {"failed", list},
-            {"changed", changed},
-            {"complete", complete},
-            {"seconds", seconds}};
+    for (const auto& [clip, why] : failed)
+        list.push_back(json_object({{"stim_id", clip}, {"why", why}}));
+    return json_object({{"format", "risorius-batch"},
+                        {"version", 1},
+                        {"name", name},
+                        {"made", made},
+                        {"kept", kept},
+                        {"elsewhere", elsewhere},
+                        {"unmeasured", unmeasured},
+                        {"failed", list},
+                        {"changed", changed},
+                        {"complete", complete},
+                        {"seconds", seconds}});
 }
 
 namespace {

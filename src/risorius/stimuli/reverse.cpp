@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/core/output_set.h"
@@ -112,13 +113,16 @@ std::vector<std::string> given_answers(const Observations& observations) {
 }
 
 Json json_of(const Estimate& estimate) {
-    return {{"value", estimate.value}, {"low", estimate.low}, {"high", estimate.high}};
+    return json_object({{"value", estimate.value}, {"low", estimate.low}, {"high", estimate.high}});
 }
 
 Json json_of(const UnitModel& unit, bool by_participant) {
-    Json out{{"unit", unit.unit},    {"role", role_name(unit.role)},
-             {"shown", unit.shown},  {"answered", unit.answered},
-             {"r", json_of(unit.r)}, {"weight", json_of(unit.weight)}};
+    Json out = json_object({{"unit", unit.unit},
+                            {"role", role_name(unit.role)},
+                            {"shown", unit.shown},
+                            {"answered", unit.answered},
+                            {"r", json_of(unit.r)},
+                            {"weight", json_of(unit.weight)}});
     if (by_participant) out["found_in"] = unit.found_in;
     for (std::size_t k = 0; k < unit.parameters.size(); ++k) {
         const ParameterModel& one = unit.parameters[k];
@@ -176,7 +180,8 @@ std::optional<Json> script_of(const AnswerModel& model, const std::string& rig, 
             end = std::max(end, courses.back().offset_latency_s);
         }
     if (courses.empty()) return {};
-    const Json script{{"format", "risorius-script"}, {"version", 1}, {"rig", rig}, {"fps", kFps}};
+    const Json script =
+        json_object({{"format", "risorius-script"}, {"version", 1}, {"rig", rig}, {"fps", kFps}});
     return design::with_units(script, courses, std::ceil(10 * (end + kAfter_s)) / 10, "model");
 }
 
@@ -297,21 +302,21 @@ Json reverse_correlation(const ReverseOptions& options, const ProgressMonitor& m
         Json units = Json::array();
         for (const UnitModel& unit : model.units)
             units.push_back(json_of(unit, options.by_participant));
-        list.push_back({{"answer", model.answer},
-                        {"trials", model.trials},
-                        {"given", model.given},
-                        {"threshold_up", model.threshold_up},
-                        {"threshold_down", model.threshold_down},
-                        {"units", std::move(units)}});
+        list.push_back(json_object({{"answer", model.answer},
+                                    {"trials", model.trials},
+                                    {"given", model.given},
+                                    {"threshold_up", model.threshold_up},
+                                    {"threshold_down", model.threshold_down},
+                                    {"units", std::move(units)}}));
     }
-    const Json json{{"format", "risorius-reverse"},
-                    {"version", 1},
-                    {"trials_of_sample", observations.trials.size()},
-                    {"participants", observations.participants.size()},
-                    {"permutations", options.classification.permutations},
-                    {"bootstraps", options.classification.bootstraps},
-                    {"seed", options.classification.seed},
-                    {"answers", std::move(list)}};
+    const Json json = json_object({{"format", "risorius-reverse"},
+                                   {"version", 1},
+                                   {"trials_of_sample", observations.trials.size()},
+                                   {"participants", observations.participants.size()},
+                                   {"permutations", options.classification.permutations},
+                                   {"bootstraps", options.classification.bootstraps},
+                                   {"seed", options.classification.seed},
+                                   {"answers", std::move(list)}});
     OutputSet outputs(options.out);
     write_file(outputs.file(options.out / "model.json"), json_text(json, 1) + "\n");
     write_file(outputs.file(options.out / "model.tsv"), table_of(models, options.by_participant));

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/input_log.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/output_set.h"
 #include "risorius/core/read_file.h"
 #include "risorius/media/mono_sound.h"
@@ -44,7 +45,8 @@ SayEdit say_edit(const Json& script, const VoiceRequest& request, double at_s) {
     out.end_s =
         rounded_up_to_ms(out.start_s + utterance.seconds(utterance.samples) + speech::kTail_s);
     out.wav = wav_of(spoken);
-    Json event{{"say", request.text}, {"voice", request.language}, {"start_s", out.start_s}};
+    Json event =
+        json_object({{"say", request.text}, {"voice", request.language}, {"start_s", out.start_s}});
     if (!request.program.empty()) event["program"] = request.program;
     out.edits = Json::array();
     std::size_t count = 0;
@@ -52,16 +54,16 @@ SayEdit say_edit(const Json& script, const VoiceRequest& request, double at_s) {
         count = script["events"].size();
         for (std::size_t i = 0; i < count; ++i)
             if (const Json& one = script["events"][i]; one.is_object() && one.contains("say"))
-                out.edits.push_back(
-                    {{"path", "/events/" + std::to_string(i) + "/sound"}, {"value", "none"}});
+                out.edits.push_back(json_object(
+                    {{"path", "/events/" + std::to_string(i) + "/sound"}, {"value", "none"}}));
     } else {
-        out.edits.push_back({{"path", "/events"}, {"value", Json::array()}});
+        out.edits.push_back(json_object({{"path", "/events"}, {"value", Json::array()}}));
     }
     out.edits.push_back(
-        {{"path", "/events/" + std::to_string(count)}, {"value", std::move(event)}});
+        json_object({{"path", "/events/" + std::to_string(count)}, {"value", std::move(event)}}));
     const bool known = script.contains("duration_s") && script["duration_s"].is_number();
     if (!known || script["duration_s"].get<double>() < out.end_s)
-        out.edits.push_back({{"path", "/duration_s"}, {"value", out.end_s}});
+        out.edits.push_back(json_object({{"path", "/duration_s"}, {"value", out.end_s}}));
     return out;
 }
 

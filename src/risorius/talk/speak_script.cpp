@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_object.h"
+
 namespace risorius::talk {
 
 namespace {
@@ -35,7 +37,8 @@ Json speak_script(const speech::Utterance& utterance, const SpeakScriptOptions& 
     const auto [from_s, to_s] = spoken_range(utterance);
     const double start_s = std::max(0.0, rounded_up(speech::kLead_s + kRest_s - from_s));
     const double end_s = rounded_up(start_s + to_s + speech::kTail_s + kRest_s);
-    Json event{{"say", {{"utterance", options.utterance.string()}}}, {"start_s", start_s}};
+    Json event = json_object(
+        {{"say", json_object({{"utterance", options.utterance.string()}})}, {"start_s", start_s}});
     const speech::SpeechStyle usual;
     if (options.style.jaw != usual.jaw) event["style"]["jaw"] = options.style.jaw;
     if (options.style.lips != usual.lips) event["style"]["lips"] = options.style.lips;
@@ -44,7 +47,7 @@ Json speak_script(const speech::Utterance& utterance, const SpeakScriptOptions& 
     if (options.gestures > 0) event["style"]["gestures"] = options.gestures;
     if (options.blinks > 0) event["style"]["blinks"] = options.blinks;
     for (const speech::ClosureChange& change : options.adjust) {
-        Json one{{"phone", change.phone}};
+        Json one = json_object({{"phone", change.phone}});
         const auto put = [&](const char* key, double value) {
             if (value > 0) one[key] = std::round(value * 1e4) / 1e4;
         };
@@ -60,10 +63,10 @@ Json speak_script(const speech::Utterance& utterance, const SpeakScriptOptions& 
         if (options.base->has("events")) options.base->at("events").items();
         script["duration_s"] = std::max(end_s, options.base->at("duration_s").number());
     } else {
-        script = {{"format", "risorius-script"},
-                  {"version", 1},
-                  {"fps", options.fps},
-                  {"duration_s", end_s}};
+        script = json_object({{"format", "risorius-script"},
+                              {"version", 1},
+                              {"fps", options.fps},
+                              {"duration_s", end_s}});
     }
     if (!options.base || !options.rig.empty()) script["rig"] = options.rig.string();
     if (!script.contains("events")) script["events"] = Json::array();

@@ -8,6 +8,7 @@
 #include "risorius/core/data_folder.h"
 #include "risorius/core/error.h"
 #include "risorius/core/input_log.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/core/read_file.h"
@@ -134,8 +135,9 @@ Spoken speak(const VoiceRequest& request, const speech::PhoneTable& table) {
         if (!request.phones.empty() && voice.symbols.set != "espeak") continue;
         const int words = std::clamp(static_cast<int>(voice.words_per_minute * request.rate + 0.5),
                                      kMinWords, kMaxWords);
-        Json json{
-            {"language", request.language}, {"words_per_minute", words}, {"pitch", request.pitch}};
+        Json json = json_object({{"language", request.language},
+                                 {"words_per_minute", words},
+                                 {"pitch", request.pitch}});
         json[request.phones.empty() ? "text" : "phones"] =
             request.phones.empty() ? request.text : request.phones;
         write_file(request_file, json_text(json));

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/render/value_colour.h"
 
@@ -49,7 +50,7 @@ class Arrays {
     /// Returns {"at": ..., "count": ...}.
     template <class T>
     Json add(const std::vector<T>& values) {
-        Json place{{"at", bytes_.size()}, {"count", values.size()}};
+        Json place = json_object({{"at", bytes_.size()}, {"count", values.size()}});
         bytes_.append(reinterpret_cast<const char*>(values.data()), sizeof(T) * values.size());
         bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
         return place;
@@ -143,48 +144,49 @@ std::string encode_scene(const render::Scene& scene, const DrawnVertices& drawn,
     for (const render::Surface& surface : scene.surfaces) {
         if (surface.triangles.rows() == 0) continue;
         const Corners corners = corners_of(surface, row);
-        surfaces.push_back({{"material", name_of(surface.material)},
-                            {"eye", surface.eye},
-                            {"texture", surface.texture},
-                            {"vertex", arrays.add(corners.vertex)},
-                            {"triangles", arrays.add(corners.triangles)},
-                            {"texcoords", arrays.add(corners.texcoords)}});
+        surfaces.push_back(json_object({{"material", name_of(surface.material)},
+                                        {"eye", surface.eye},
+                                        {"texture", surface.texture},
+                                        {"vertex", arrays.add(corners.vertex)},
+                                        {"triangles", arrays.add(corners.triangles)},
+                                        {"texcoords", arrays.add(corners.texcoords)}}));
     }
     Json landmarks = Json::object();
     for (const auto& [id, p] : scene.landmarks) landmarks[id] = {p.x(), p.y(), p.z()};
     Json eyes = Json::array();
     for (const render::Eye& eye : scene.eyes)
-        eyes.push_back({{"centre", {eye.centre.x(), eye.centre.y(), eye.centre.z()}},
-                        {"radius_m", eye.radius_m},
-                        {"iris_radius_m", eye.iris_radius_m},
-                        {"pupil_radius_m", eye.pupil_radius_m},
-                        {"forward", {eye.forward.x(), eye.forward.y(), eye.forward.z()}}});
+        eyes.push_back(
+            json_object({{"centre", {eye.centre.x(), eye.centre.y(), eye.centre.z()}},
+                         {"radius_m", eye.radius_m},
+                         {"iris_radius_m", eye.iris_radius_m},
+                         {"pupil_radius_m", eye.pupil_radius_m},
+                         {"forward", {eye.forward.x(), eye.forward.y(), eye.forward.z()}}}));
     const render::Appearance& looks = scene.appearance;
-    const Json head{
-        {"unit_m", unit_m},
-        {"vertices", drawn.vertex.size()},
-        {"vertex", arrays.add(std::vector<std::int32_t>(drawn.vertex.begin(), drawn.vertex.end()))},
-        {"rest", arrays.add(drawn.of(scene.rest))},
-        {"soft", arrays.add(pullable)},
-        {"surfaces", surfaces},
-        {"landmarks", landmarks},
-        {"eyes", eyes},
-        {"skin_tone", colour_json(looks.skin_tone)},
-        {"lip_tone", colour_json(looks.lip_tone)},
-        {"hair_tone", colour_json(looks.hair_tone)},
-        {"iris_tone", colour_json(looks.iris_tone)},
-        {"strain_scale", 0.4},
-        {"strain_colours", strain_colours()}};
+    const Json head = json_object({{"unit_m", unit_m},
+                                   {"vertices", drawn.vertex.size()},
+                                   {"vertex", arrays.add(std::vector<std::int32_t>(
+                                                  drawn.vertex.begin(), drawn.vertex.end()))},
+                                   {"rest", arrays.add(drawn.of(scene.rest))},
+                                   {"soft", arrays.add(pullable)},
+                                   {"surfaces", surfaces},
+                                   {"landmarks", landmarks},
+                                   {"eyes", eyes},
+                                   {"skin_tone", colour_json(looks.skin_tone)},
+                                   {"lip_tone", colour_json(looks.lip_tone)},
+                                   {"hair_tone", colour_json(looks.hair_tone)},
+                                   {"iris_tone", colour_json(looks.iris_tone)},
+                                   {"strain_scale", 0.4},
+                                   {"strain_colours", strain_colours()}});
     return arrays.message(kSceneKind, head);
 }
 
 std::string encode_picture(const std::string& material, const Image& picture) {
     Arrays arrays;
-    const Json head{
-        {"material", material},
-        {"width_px", picture.width_px},
-        {"height_px", picture.height_px},
-        {"rgba", arrays.add(std::vector<std::uint8_t>(picture.rgba.begin(), picture.rgba.end()))}};
+    const Json head = json_object({{"material", material},
+                                   {"width_px", picture.width_px},
+                                   {"height_px", picture.height_px},
+                                   {"rgba", arrays.add(std::vector<std::uint8_t>(
+                                                picture.rgba.begin(), picture.rgba.end()))}});
     return arrays.message(kPictureKind, head);
 }
 
@@ -196,16 +198,16 @@ std::string encode_muscles(const face::MuscleSurfaces& surfaces) {
         for (long f = 0; f < muscle.triangles.rows(); ++f)
             for (int k = 0; k < 3; ++k)
                 triangles.push_back(static_cast<std::uint32_t>(muscle.triangles(f, k)));
-        parts.push_back({{"muscle", muscle.muscle},
-                         {"side", !muscle.side                  ? ""
-                                  : *muscle.side == Side::kLeft ? "l"
-                                                                : "r"},
-                         {"column", muscle.column},
-                         {"triangles", arrays.add(triangles)}});
+        parts.push_back(json_object({{"muscle", muscle.muscle},
+                                     {"side", !muscle.side                  ? ""
+                                              : *muscle.side == Side::kLeft ? "l"
+                                                                            : "r"},
+                                     {"column", muscle.column},
+                                     {"triangles", arrays.add(triangles)}}));
     }
     std::vector<float> tendon(surfaces.tendon.begin(), surfaces.tendon.end());
-    const Json head{
-        {"parts", parts}, {"rest", arrays.add(surfaces.rest)}, {"tendon", arrays.add(tendon)}};
+    const Json head = json_object(
+        {{"parts", parts}, {"rest", arrays.add(surfaces.rest)}, {"tendon", arrays.add(tendon)}});
     return arrays.message(kMusclesKind, head);
 }
 
@@ -217,9 +219,9 @@ std::string encode_skull(const face::Skull& skull) {
             for (int k = 0; k < 3; ++k)
                 triangles.push_back(static_cast<std::uint32_t>(surface.triangles(f, k)));
         const Json vertices = arrays.add(surface.vertices);
-        return Json{{"vertices", vertices}, {"triangles", arrays.add(triangles)}};
+        return json_object({{"vertices", vertices}, {"triangles", arrays.add(triangles)}});
     };
-    Json head{{"cranium", bone(skull.cranium)}};
+    Json head = json_object({{"cranium", bone(skull.cranium)}});
     head["mandible"] = bone(skull.mandible);
     return arrays.message(kSkullKind, head);
 }
@@ -235,15 +237,15 @@ std::string encode_mesh(const geom::PolygonMesh& mesh, const std::string& file,
         for (long f = 0; f < of_group.rows(); ++f)
             for (int k = 0; k < 3; ++k)
                 triangles.push_back(static_cast<std::uint32_t>(of_group(f, k)));
-        groups.push_back({{"name", mesh.group_names[g]},
-                          {"from", from},
-                          {"count", triangles.size() / 3 - from}});
+        groups.push_back(json_object({{"name", mesh.group_names[g]},
+                                      {"from", from},
+                                      {"count", triangles.size() / 3 - from}}));
     }
-    const Json head{{"file", file},
-                    {"rig", rig},
-                    {"vertices", arrays.add(mesh.positions)},
-                    {"triangles", arrays.add(triangles)},
-                    {"groups", groups}};
+    const Json head = json_object({{"file", file},
+                                   {"rig", rig},
+                                   {"vertices", arrays.add(mesh.positions)},
+                                   {"triangles", arrays.add(triangles)},
+                                   {"groups", groups}});
     return arrays.message(kMeshKind, head);
 }
 

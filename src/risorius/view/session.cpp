@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/face/diagnostics.h"
@@ -18,7 +19,7 @@ namespace risorius::view {
 namespace {
 
 std::string error_message(const Json& id, const std::string& text) {
-    return json_text(Json{{"type", "error"}, {"id", id}, {"message", text}});
+    return json_text(json_object({{"type", "error"}, {"id", id}, {"message", text}}));
 }
 
 }  // namespace
@@ -125,12 +126,12 @@ void Session::make_live() {
         live_ = std::make_unique<track::Timeline>(*timeline_);
         return;
     }
-    Json only{{"format", "risorius-script"},
-              {"version", 1},
-              {"rig", script_.header.rig},
-              {"duration_s", script_.header.duration_s}};
+    Json only = json_object({{"format", "risorius-script"},
+                             {"version", 1},
+                             {"rig", script_.header.rig},
+                             {"duration_s", script_.header.duration_s}});
     for (const auto& [name, value] : overrides_)
-        only["channels"][name] = {{"keys", Json::array({Json::array({0, value})})}};
+        only["channels"][name] = json_object({{"keys", Json::array({Json::array({0, value})})}});
     const rig::RigDescription& rig = inputs_.rig->rig;
     track::ScriptDescription script = script_;
     std::erase_if(script.channels, [this](const track::ChannelTrack& track) {
@@ -253,7 +254,7 @@ void Session::key(const JsonCursor& message) {
         operations.push_back({"/channels", std::make_shared<Json>(Json::object()), {}});
     const Json::json_pointer place(pointer);
     if (!script.contains(place)) {
-        const Json made{{"keys", Json::array({Json::array({t_s, value})})}};
+        const Json made = json_object({{"keys", Json::array({Json::array({t_s, value})})}});
         operations.push_back({pointer, std::make_shared<Json>(made), {}});
     } else {
         Json keys = script[place]["keys"];
@@ -468,7 +469,7 @@ std::string Session::pose() {
 Json Session::log() const {
     Json out = Json::array();
     for (const auto& [tick, message] : log_)
-        out.push_back({{"tick", tick}, {"message", json_or_null(message)}});
+        out.push_back(json_object({{"tick", tick}, {"message", json_or_null(message)}}));
     return out;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/face/diagnostics.h"
 #include "risorius/view/detail/channel_list.h"
@@ -97,30 +98,30 @@ std::string Session::welcome() const {
     const rig::RigDescription& rig = inputs_.rig->rig;
     Json expressions = Json::array();
     for (const track::Expression& one : rig.expressions.list)
-        expressions.push_back({{"name", one.name},
-                               {"onset_s", one.onset_s},
-                               {"hold_s", one.hold_s},
-                               {"offset_s", one.offset_s}});
-    return json_text(Json{{"type", "welcome"},
-                          {"protocol", 1},
-                          {"rig", rig.name},
-                          {"script", inputs_.script.file().filename().string()},
-                          {"quality", inputs_.quality},
-                          {"channels", channel_list(rig)},
-                          {"columns", channels_.column_names()},
-                          {"expressions", expressions}});
+        expressions.push_back(json_object({{"name", one.name},
+                                           {"onset_s", one.onset_s},
+                                           {"hold_s", one.hold_s},
+                                           {"offset_s", one.offset_s}}));
+    return json_text(json_object({{"type", "welcome"},
+                                  {"protocol", 1},
+                                  {"rig", rig.name},
+                                  {"script", inputs_.script.file().filename().string()},
+                                  {"quality", inputs_.quality},
+                                  {"channels", channel_list(rig)},
+                                  {"columns", channels_.column_names()},
+                                  {"expressions", expressions}}));
 }
 
 std::string Session::document() const {
-    return json_text(Json{{"type", "document"},
-                          {"script", document_.json()},
-                          {"revision", document_.revision()},
-                          {"dirty", document_.dirty()},
-                          {"undo", document_.can_undo()},
-                          {"redo", document_.can_redo()},
-                          {"duration_s", script_.header.duration_s},
-                          {"curves", curve_samples(script_)},
-                          {"recorded", recorded_samples(script_)}});
+    return json_text(json_object({{"type", "document"},
+                                  {"script", document_.json()},
+                                  {"revision", document_.revision()},
+                                  {"dirty", document_.dirty()},
+                                  {"undo", document_.can_undo()},
+                                  {"redo", document_.can_redo()},
+                                  {"duration_s", script_.header.duration_s},
+                                  {"curves", curve_samples(script_)},
+                                  {"recorded", recorded_samples(script_)}}));
 }
 
 std::string Session::muscles() const { return encode_muscles(face_->surfaces().muscles()); }
@@ -144,13 +145,13 @@ std::string Session::state() const {
     for (const auto& [id, hand] : hands_) {
         if (at >= held.size() || held[at].vertex != hand.pull.vertex) continue;
         const face::HeldPull& one = held[at++];
-        pulls.push_back({{"pull", id},
-                         {"vertex", one.vertex},
-                         {"point_m", point_json(one.point)},
-                         {"hand_m", point_json(one.hand)},
-                         {"force_n", one.force_n},
-                         {"moved_mm", 1e3 * one.moved_m},
-                         {"stiffness_n_per_m", hand.pull.stiffness_n_per_m}});
+        pulls.push_back(json_object({{"pull", id},
+                                     {"vertex", one.vertex},
+                                     {"point_m", point_json(one.point)},
+                                     {"hand_m", point_json(one.hand)},
+                                     {"force_n", one.force_n},
+                                     {"moved_mm", 1e3 * one.moved_m},
+                                     {"stiffness_n_per_m", hand.pull.stiffness_n_per_m}}));
     }
     Json selected = Json::object();
     const track::SidedName name = track::split_side(selected_);
@@ -159,20 +160,21 @@ std::string Session::state() const {
         for (const Side side : {Side::kLeft, Side::kRight})
             if (muscle->paired || side == Side::kLeft)
                 if (const auto found = face_->diagnostics().muscle_state(name.id, side))
-                    selected[side == Side::kLeft ? "l" : "r"] = {
-                        {"force_n", found->force_n}, {"length_mm", 1e3 * found->length_m}};
+                    selected[side == Side::kLeft ? "l" : "r"] = json_object(
+                        {{"force_n", found->force_n}, {"length_mm", 1e3 * found->length_m}});
     }
-    return json_text(Json{{"type", "state"},
-                          {"tick", ticks_},
-                          {"t_s", time_s()},
-                          {"playing", playing_},
-                          {"computing", (playing_ && !take_.has(frame_)) || wanted_ >= 0},
-                          {"computed_s", static_cast<double>(std::max(0L, take_.valid() - 1)) / 60},
-                          {"resting", !playing_ && quiet_ >= kQuietTicks},
-                          {"dirty", document_.dirty()},
-                          {"overrides", overrides},
-                          {"pulls", pulls},
-                          {"selected", selected}});
+    return json_text(
+        json_object({{"type", "state"},
+                     {"tick", ticks_},
+                     {"t_s", time_s()},
+                     {"playing", playing_},
+                     {"computing", (playing_ && !take_.has(frame_)) || wanted_ >= 0},
+                     {"computed_s", static_cast<double>(std::max(0L, take_.valid() - 1)) / 60},
+                     {"resting", !playing_ && quiet_ >= kQuietTicks},
+                     {"dirty", document_.dirty()},
+                     {"overrides", overrides},
+                     {"pulls", pulls},
+                     {"selected", selected}}));
 }
 
 }  // namespace risorius::view

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_object.h"
 #include "risorius/core/version.h"
 
 namespace risorius::animate {
@@ -31,12 +32,13 @@ SolverStats solver_stats(const std::vector<face::StepStats>& history, int max_in
 
 Json RunRecord::json() const {
     const auto file = [](const InputFile& f) {
-        return Json{{"file", f.path.generic_string()}, {"sha256", f.sha256}};
+        return json_object({{"file", f.path.generic_string()}, {"sha256", f.sha256}});
     };
     Json json;
     json["format"] = "risorius-run";
     json["version"] = 1;
-    json["toolkit"] = {{"name", "Risorius"}, {"version", kVersion}, {"compiler", __VERSION__}};
+    json["toolkit"] =
+        json_object({{"name", "Risorius"}, {"version", kVersion}, {"compiler", __VERSION__}});
     json["synthetic_face"] = true;
     json["out"] = out.generic_string();
     json["script"] = file(script);
@@ -57,31 +59,34 @@ Json RunRecord::json() const {
     json["show"] = show;
     if (scale_to) json["scale_to"] = *scale_to;
     json["background"] = background;
-    json["shutter"] = {{"open_deg", shutter_deg}, {"moments", shutter_moments}};
+    json["shutter"] = json_object({{"open_deg", shutter_deg}, {"moments", shutter_moments}});
     json["colour"] = "sRGB values, tagged BT.709 in video files";
     json["graphics"] = graphics;
     json["quality"] = quality;
     json["antialiasing"] = antialiasing;
-    json["jaw"] = {{"moved_by", jaw},
-                   {"widest_opening_mm", max_jaw_opening_mm},
-                   {"greatest_tooth_force_n", max_tooth_force_n}};
+    json["jaw"] = json_object({{"moved_by", jaw},
+                               {"widest_opening_mm", max_jaw_opening_mm},
+                               {"greatest_tooth_force_n", max_tooth_force_n}});
     json["step_s"] = face::kStep_s;
-    json["face"] = {
-        {"nodes", nodes}, {"tets", tets}, {"dropped_tets", dropped_tets}, {"fibres", fibres}};
-    json["solver"] = {{"steps", solver.steps},
-                      {"mean_iterations", solver.mean_iterations},
-                      {"max_iterations", solver.max_iterations},
-                      {"converged_share", solver.converged_fraction},
-                      {"largest_last_step_rms_mm", solver.max_last_step_rms_mm},
-                      {"deepest_contact_mm", solver.max_contact_depth_mm},
-                      {"largest_muscle_volume_error", solver.max_muscle_volume_error},
-                      {"most_inverted_tets", solver.max_inverted_tets}};
+    json["face"] = json_object(
+        {{"nodes", nodes}, {"tets", tets}, {"dropped_tets", dropped_tets}, {"fibres", fibres}});
+    json["solver"] = json_object({{"steps", solver.steps},
+                                  {"mean_iterations", solver.mean_iterations},
+                                  {"max_iterations", solver.max_iterations},
+                                  {"converged_share", solver.converged_fraction},
+                                  {"largest_last_step_rms_mm", solver.max_last_step_rms_mm},
+                                  {"deepest_contact_mm", solver.max_contact_depth_mm},
+                                  {"largest_muscle_volume_error", solver.max_muscle_volume_error},
+                                  {"most_inverted_tets", solver.max_inverted_tets}});
     json["frames_sha256"] = frames_sha256;
     if (!out_sha256.empty()) json["out_sha256"] = out_sha256;
     json["warnings"] = warnings;
-    json["timing"] = {{"threads", timing.threads},       {"build_s", timing.build_s},
-                      {"simulate_s", timing.simulate_s}, {"draw_s", timing.draw_s},
-                      {"encode_s", timing.encode_s},     {"total_s", timing.total_s}};
+    json["timing"] = json_object({{"threads", timing.threads},
+                                  {"build_s", timing.build_s},
+                                  {"simulate_s", timing.simulate_s},
+                                  {"draw_s", timing.draw_s},
+                                  {"encode_s", timing.encode_s},
+                                  {"total_s", timing.total_s}});
     return json;
 }
 

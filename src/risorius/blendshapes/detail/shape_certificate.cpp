@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_object.h"
+
 namespace risorius::blendshapes {
 
 std::vector<std::string> ShapeCertificate::complaints(const ShapeLimits& limits) const {
@@ -30,15 +32,22 @@ Json ShapeCertificate::json() const {
     const auto mm = [](const std::optional<double>& value) {
         return value ? Json(1e3 * *value) : Json();
     };
-    return {
-        {"volume_change", volume_change},    {"lip_depth_mm", 1e3 * lip_depth_m},
-        {"eye_depth_mm", 1e3 * eye_depth_m}, {"bone_depth_mm", 1e3 * bone_depth_m},
-        {"lid_gap_mm", mm(lid_gap_m)},       {"lip_gap_mm", mm(lip_gap_m)},
-        {"asymmetry_mm", mm(asymmetry_m)},   {"asymmetry_as_solved_mm", mm(asymmetry_as_solved_m)},
-        {"largest_stretch", stretch.max},    {"stretch_of_99_percent", stretch.max_of_99},
-        {"least_stretch", stretch.min},      {"peak_mm", 1e3 * peak_m},
-        {"moved_vertices", moved_vertices},  {"converged", converged},
-        {"inverted_tets", inverted_tets},    {"complaints", complaints()}};
+    return json_object({{"volume_change", volume_change},
+                        {"lip_depth_mm", 1e3 * lip_depth_m},
+                        {"eye_depth_mm", 1e3 * eye_depth_m},
+                        {"bone_depth_mm", 1e3 * bone_depth_m},
+                        {"lid_gap_mm", mm(lid_gap_m)},
+                        {"lip_gap_mm", mm(lip_gap_m)},
+                        {"asymmetry_mm", mm(asymmetry_m)},
+                        {"asymmetry_as_solved_mm", mm(asymmetry_as_solved_m)},
+                        {"largest_stretch", stretch.max},
+                        {"stretch_of_99_percent", stretch.max_of_99},
+                        {"least_stretch", stretch.min},
+                        {"peak_mm", 1e3 * peak_m},
+                        {"moved_vertices", moved_vertices},
+                        {"converged", converged},
+                        {"inverted_tets", inverted_tets},
+                        {"complaints", complaints()}});
 }
 
 }  // namespace risorius::blendshapes

@@ -12,6 +12,7 @@
 #include "risorius/blendshapes/detail/point_cache.h"
 #include "risorius/blendshapes/detail/shape_correctives.h"
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/io/read_mesh.h"
@@ -48,9 +49,9 @@ io::MorphModel morph_model(const scene::RigFiles& files, const face::Face& face,
     };
     Json drivers = Json::array(), correctives = Json::array();
     for (const blendshapes::Driver& driver : linear.drivers) {
-        Json& rule = drivers.emplace_back(Json{{"name", driver.name},
-                                               {"drivers", names_of(driver.shapes)},
-                                               {"value", weight_rule(driver)}});
+        Json& rule = drivers.emplace_back(json_object({{"name", driver.name},
+                                                       {"drivers", names_of(driver.shapes)},
+                                                       {"value", weight_rule(driver)}}));
         if (driver.shapes.size() == 1) rule["part"] = driver.part;
         if (!driver.fades_with.empty()) rule["fades_with"] = names_of(driver.fades_with);
     }
@@ -59,23 +60,22 @@ io::MorphModel morph_model(const scene::RigFiles& files, const face::Face& face,
         Json of_drivers = Json::array();
         for (const double fraction : corrective.of_drivers)
             of_drivers.push_back(static_cast<float>(fraction));
-        correctives.push_back({{"name", corrective.name}, {"of_terms", of_drivers}});
+        correctives.push_back(json_object({{"name", corrective.name}, {"of_terms", of_drivers}}));
     }
     Json on_top = Json::object();
     for (const MadeShape& made : shapes.list)
         if (made.goal.on_top_of >= 0)
             on_top[made.goal.name] =
                 shapes.list[static_cast<std::size_t>(made.goal.on_top_of)].goal.name;
-    model.extras = {{"risorius",
-                     {{"rig", files.rig.name},
-                      {"set", set},
-                      {"unit", "m"},
-                      {"up", "+Y"},
-                      {"front", "+Z"},
-                      {"vertices", head.vertices.rows()},
-                      {"on_top_of", on_top},
-                      {"terms", drivers},
-                      {"correctives", correctives}}}};
+    model.extras = json_object({{"risorius", json_object({{"rig", files.rig.name},
+                                                          {"set", set},
+                                                          {"unit", "m"},
+                                                          {"up", "+Y"},
+                                                          {"front", "+Z"},
+                                                          {"vertices", head.vertices.rows()},
+                                                          {"on_top_of", on_top},
+                                                          {"terms", drivers},
+                                                          {"correctives", correctives}})}});
     if (animation) {
         model.extras["risorius"]["fps"] = animation->fps;
         io::MorphAnimation& out = model.animations.emplace_back();
@@ -95,17 +95,17 @@ std::vector<std::string> write_shape_table(const scene::RigFiles& files, const r
                                            const std::filesystem::path& folder) {
     const track::ChannelTable channels = files.rig.channels();
     const long vertices = head.vertices.rows();
-    Json json{{"format", "risorius-shapes"},
-              {"version", 1},
-              {"shape", {shapes.list.size(), vertices, 3}},
-              {"dtype", "<f4"},
-              {"layout", "[shape][vertex][xyz]"},
-              {"names", Json::array()},
-              {"file", "shapes.f32"},
-              {"units_per_metre", 1 / head.frame.metres_per_unit},
-              {"excitations", Json::object()},
-              {"on_top_of", Json::object()},
-              {"source", "risorius shapes, rig " + files.rig.name}};
+    Json json = json_object({{"format", "risorius-shapes"},
+                             {"version", 1},
+                             {"shape", {shapes.list.size(), vertices, 3}},
+                             {"dtype", "<f4"},
+                             {"layout", "[shape][vertex][xyz]"},
+                             {"names", Json::array()},
+                             {"file", "shapes.f32"},
+                             {"units_per_metre", 1 / head.frame.metres_per_unit},
+                             {"excitations", Json::object()},
+                             {"on_top_of", Json::object()},
+                             {"source", "risorius shapes, rig " + files.rig.name}});
     std::string numbers;
     for (const MadeShape& made : shapes.list) {
         json["names"].push_back(made.goal.name);
@@ -157,14 +157,14 @@ std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const 
     write_file(folder / "cache.f32",
                std::string(reinterpret_cast<const char*>(cache.positions.data()),
                            cache.positions.size() * sizeof(float)));
-    const Json json{{"format", "risorius-vertex-cache"},
-                    {"version", 1},
-                    {"shape", {animation.weights.rows(), head.vertices.rows(), 3}},
-                    {"dtype", "<f4"},
-                    {"layout", "[frame][vertex][xyz]"},
-                    {"file", "cache.f32"},
-                    {"fps", animation.fps},
-                    {"units_per_metre", 1 / head.frame.metres_per_unit}};
+    const Json json = json_object({{"format", "risorius-vertex-cache"},
+                                   {"version", 1},
+                                   {"shape", {animation.weights.rows(), head.vertices.rows(), 3}},
+                                   {"dtype", "<f4"},
+                                   {"layout", "[frame][vertex][xyz]"},
+                                   {"file", "cache.f32"},
+                                   {"fps", animation.fps},
+                                   {"units_per_metre", 1 / head.frame.metres_per_unit}});
     report::write_text(folder / "cache.json", json_text(json, 1) + "\n");
     written.insert(written.end(), {"cache.json", "cache.f32"});
     return written;

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/known_names.h"
 #include "risorius/design/conditions.h"
 
@@ -69,9 +70,9 @@ bool Control::is_random() const {
 }
 
 Json Control::unnamed() const {
-    if (passes()) return {{"order", order}, {"rms", keep_contrast}};
-    if (kind == ControlKind::kPointLight) return {{"dots", dots}, {"radius", radius}};
-    if (kind == ControlKind::kMondrian) return {{"rate_hz", rate_hz}, {"grey", grey}};
+    if (passes()) return json_object({{"order", order}, {"rms", keep_contrast}});
+    if (kind == ControlKind::kPointLight) return json_object({{"dots", dots}, {"radius", radius}});
+    if (kind == ControlKind::kMondrian) return json_object({{"rate_hz", rate_hz}, {"grey", grey}});
     return {};
 }
 

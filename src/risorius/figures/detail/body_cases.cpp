@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_object.h"
 #include "risorius/softbody/integrator_description.h"
 
 namespace risorius::figures {
@@ -36,7 +37,7 @@ softbody::BodyDescription changed_body(const JsonCursor& body,
     change->keys();  // must be an object
     Json changed = body.json();
     changed.merge_patch(change->json());
-    return softbody::read_body(JsonCursor::from_json(Json{{"body", changed}},
+    return softbody::read_body(JsonCursor::from_json(json_object({{"body", changed}}),
                                                      body.file().string() + " (" + case_name + ")")
                                    .at("body"));
 }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/version.h"
 #include "risorius/media/image_file.h"
 #include "risorius/render/object_view.h"
@@ -228,7 +229,8 @@ Json figure_json(const figures::FigureResult& figure) {
     Json json = Json::object();
     json["format"] = "risorius-figure";
     json["version"] = 1;
-    json["toolkit"] = {{"name", "Risorius"}, {"version", kVersion}, {"compiler", __VERSION__}};
+    json["toolkit"] =
+        json_object({{"name", "Risorius"}, {"version", kVersion}, {"compiler", __VERSION__}});
     json["id"] = figure.id;
     json["title"] = figure.title;
     json["passes"] = figure.passes();
@@ -241,9 +243,9 @@ Json figure_json(const figures::FigureResult& figure) {
         json["watched"].push_back(watched_json(check));
     json["tables"] = Json::array();
     for (const figures::Table& table : figure.tables)
-        json["tables"].push_back({{"file", table.name + ".csv"},
-                                  {"columns", table.columns},
-                                  {"rows", table.rows.size()}});
+        json["tables"].push_back(json_object({{"file", table.name + ".csv"},
+                                              {"columns", table.columns},
+                                              {"rows", table.rows.size()}}));
     json["record"] = figure.record;
     return json;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/figures/detail/body_cases.h"
 #include "risorius/figures/detail/equilibrium_run.h"
@@ -30,7 +31,7 @@ std::vector<softbody::BodyDescription> read_bodies(const JsonCursor& experiment,
                                                    std::vector<std::string>& names) {
     std::vector<softbody::BodyDescription> bodies;
     for (const JsonCursor& grid : experiment.at("grids").items()) {
-        const Json change = {{"grid", grid.json()}};
+        const Json change = json_object({{"grid", grid.json()}});
         const std::string name = json_text(grid.json());
         bodies.push_back(changed_body(experiment.at("body"),
                                       JsonCursor::from_json(change, experiment.file().string()),

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "risorius/core/json_object.h"
 #include "risorius/figures/detail/body_cases.h"
 #include "risorius/figures/detail/equilibrium_run.h"
 #include "risorius/figures/detail/progress.h"
@@ -53,7 +54,7 @@ Plan read_plan(const JsonCursor& experiment) {
             name += std::to_string(count.integer(2, 1000));
         }
         plan.bodies.push_back(
-            JsonCursor::from_json(Json{{"body", body}},
+            JsonCursor::from_json(json_object({{"body", body}}),
                                   experiment.file().string() + " (grid " + name + ")")
                 .at("body"));
         plan.grids.push_back(name);

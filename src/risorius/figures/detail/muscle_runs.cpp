@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/figures/detail/body_cases.h"
 
 namespace risorius::figures {
@@ -18,7 +19,7 @@ softbody::MuscleDescription changed_muscle(const JsonCursor& muscle,
         change->keys();  // must be an object
         changed.merge_patch(change->json());
     }
-    const JsonCursor json = JsonCursor::from_json(Json{{"muscle", changed}},
+    const JsonCursor json = JsonCursor::from_json(json_object({{"muscle", changed}}),
                                                   muscle.file().string() + " (" + run_name + ")")
                                 .at("muscle");
     json.at("grid");  // read_muscle() lets its caller supply the grid; here the file must have it

@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_object.h"
 #include "risorius/figures/detail/body_cases.h"
 #include "risorius/figures/detail/linear_modes.h"
 #include "risorius/figures/detail/progress.h"
@@ -59,8 +60,8 @@ Sweep read_sweep(const JsonCursor& experiment) {
         body[pointer] = value.json();
         const std::string file = experiment.file().string() + " (" + sweep.name + " = " +
                                  format_number(value.number()) + ")";
-        sweep.bodies.push_back(
-            softbody::read_body(JsonCursor::from_json(Json{{"body", body}}, file).at("body")));
+        sweep.bodies.push_back(softbody::read_body(
+            JsonCursor::from_json(json_object({{"body", body}}), file).at("body")));
     }
     if (sweep.values.empty()) varied.at("values").fail("at least one value");
 

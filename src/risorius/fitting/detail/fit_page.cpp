@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/atomic_folder.h"
@@ -110,7 +111,7 @@ std::string page_of(const FitReport& report, const rig::RigDescription& rig) {
 void write_fit_report(const FitReport& report, const rig::RigDescription& rig,
                       const std::filesystem::path& folder) {
     report::write_text(folder / "index.html", page_of(report, rig));
-    Json json = {{"format", "risorius-fit"}, {"version", 1}};
+    Json json = json_object({{"format", "risorius-fit"}, {"version", 1}});
     json.update(report.json());
     json[report::kFilesKey] = {kFitPicture, "index.html", "results.json"};
     report::write_text(folder / "results.json", json_text(json, 2) + "\n");

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "risorius/core/json_object.h"
+
 namespace risorius::rig {
 
 namespace {
@@ -71,13 +73,13 @@ Json solid_muscles_json(const std::vector<SolidMuscle>& solids) {
     const auto mm = [](double metres) { return std::round(1e9 * metres) / 1e6; };
     Json out = Json::object();
     for (const SolidMuscle& solid : solids)
-        out[solid.muscle] = {{"strength", solid.strength},
-                             {"width_mm", mm(solid.width_m)},
-                             {"thickness_mm", mm(solid.thickness_m)},
-                             {"ends", solid.ends},
-                             {"cells", solid.cells},
-                             {"shear_pa", solid.shear_pa},
-                             {"volume_pa", solid.volume_pa}};
+        out[solid.muscle] = json_object({{"strength", solid.strength},
+                                         {"width_mm", mm(solid.width_m)},
+                                         {"thickness_mm", mm(solid.thickness_m)},
+                                         {"ends", solid.ends},
+                                         {"cells", solid.cells},
+                                         {"shear_pa", solid.shear_pa},
+                                         {"volume_pa", solid.volume_pa}});
     return out;
 }
 

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/scene/face_oval.h"
 #include "risorius/stimuli/detail/clip_pictures.h"
@@ -141,25 +142,32 @@ bool has_moved(const Aoi& before, const Aoi& now) {
 Json key_frame(const Aoi& aoi, long long time_us) {
     Json vertices = Json::array();
     for (const Vec2& corner : aoi.polygon)
-        vertices.push_back({{"x", in_hundredths(corner.x())}, {"y", in_hundredths(corner.y())}});
-    return {{"is_active", !aoi.polygon.empty()}, {"time", time_us}, {"vertices", vertices}};
+        vertices.push_back(
+            json_object({{"x", in_hundredths(corner.x())}, {"y", in_hundredths(corner.y())}}));
+    return json_object(
+        {{"is_active", !aoi.polygon.empty()}, {"time", time_us}, {"vertices", vertices}});
 }
 
 std::string columns_text() {
     return json_text(
-               Json{{"onset",
-                     {{"Description", "Time of the frame from the first one"}, {"Units", "s"}}},
-                    {"duration", {{"Description", "Duration of the frame"}, {"Units", "s"}}},
-                    {"frame", {{"Description", "Number of the frame as it is shown, from 0"}}},
-                    {"aoi",
-                     {{"Description", "Area of interest; _l is the left side of the person"}}},
+               json_object(
+                   {{"onset", json_object({{"Description", "Time of the frame from the first one"},
+                                           {"Units", "s"}})},
+                    {"duration",
+                     json_object({{"Description", "Duration of the frame"}, {"Units", "s"}})},
+                    {"frame",
+                     json_object({{"Description", "Number of the frame as it is shown, from 0"}})},
+                    {"aoi", json_object({{"Description",
+                                          "Area of interest; _l is the left side of the person"}})},
                     {"visible",
-                     {{"Description", "0 where the area looks away or is outside the picture"}}},
-                    {"area_px", {{"Description", "Area"}, {"Units", "px^2"}}},
+                     json_object({{"Description",
+                                   "0 where the area looks away or is outside the picture"}})},
+                    {"area_px", json_object({{"Description", "Area"}, {"Units", "px^2"}})},
                     {"polygon",
-                     {{"Description",
-                       "Corners x,y from the upper left corner of the picture, clockwise"},
-                      {"Units", "px"}}}},
+                     json_object(
+                         {{"Description",
+                           "Corners x,y from the upper left corner of the picture, clockwise"},
+                          {"Units", "px"}})}}),
                1) +
            "\n";
 }
@@ -264,10 +272,10 @@ AoiFiles aoi_files(const animate::FrameRows& source, const std::vector<int>& ord
                              two_decimals(aoi.polygon[c].y());
             out.table += "\n";
             if (t == 0) {
-                aois.push_back({{"name", aoi.name},
-                                {"color", kColours[i % kColours.size()]},
-                                {"key_frames", Json::array()},
-                                {"tags", Json::array()}});
+                aois.push_back(json_object({{"name", aoi.name},
+                                            {"color", kColours[i % kColours.size()]},
+                                            {"key_frames", Json::array()},
+                                            {"tags", Json::array()}}));
                 keyed.push_back({});
                 keyed_s.push_back(0);
             }
@@ -284,10 +292,10 @@ AoiFiles aoi_files(const animate::FrameRows& source, const std::vector<int>& ord
     for (std::size_t i = 0; i < keyed.size(); ++i)
         out.ias += ias_line(keyed[i], i, milliseconds(keyed_s[i]), milliseconds(end_s),
                             aois[i]["key_frames"].size() == 1);
-    out.key_frames = json_text(Json{{"operation", "AddAois"},
-                                    {"media_id", "stim-" + plan.condition.clip},
-                                    {"merge_mode", "replace_aois"},
-                                    {"aois", aois}},
+    out.key_frames = json_text(json_object({{"operation", "AddAois"},
+                                            {"media_id", "stim-" + plan.condition.clip},
+                                            {"merge_mode", "replace_aois"},
+                                            {"aois", aois}}),
                                1) +
                      "\n";
     return out;

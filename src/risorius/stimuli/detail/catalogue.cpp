@@ -6,6 +6,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/stimuli/detail/methods.h"
 
@@ -36,7 +37,7 @@ struct Column {
 };
 
 Json described(const char* text, const char* units = "") {
-    Json out{{"Description", text}};
+    Json out = json_object({{"Description", text}});
     if (*units) out["Units"] = units;
     return out;
 }
@@ -286,19 +287,19 @@ Catalogue sample_of(const BatchPlan& plan, const std::vector<Json>& records) {
             out.table += "\t" + catalogue_cell(seen.is_null() ? seen : rounded(seen)) + "\n";
         }
     }
-    out.columns = {
-        {"trial", described("Number of the trial; heads and other factors show the same ones")},
-        {"stimulus_id", described("The clip, as in stimuli/stimuli.tsv")},
-        {"unit", described("An action unit that moves in it, of one side with .l or .r")},
-        {"amplitude", described("Its intensity at the peak, 0 to 1")},
-        {"onset_latency_s", described("When it begins", "s")},
-        {"peak_latency_s", described("When it is at its peak", "s")},
-        {"offset_latency_s", described("When it is back at rest, or the clip ends", "s")},
-        {"acceleration", described("Exponent p of the rise: its largest speed is amplitude p / "
-                                   "(peak_latency_s - onset_latency_s)")},
-        {"deceleration", described("The same of the fall")},
-        {"seen_mm",
-         described("Farthest way of a landmark in the clip, of all units together", "mm")}};
+    out.columns = json_object(
+        {{"trial", described("Number of the trial; heads and other factors show the same ones")},
+         {"stimulus_id", described("The clip, as in stimuli/stimuli.tsv")},
+         {"unit", described("An action unit that moves in it, of one side with .l or .r")},
+         {"amplitude", described("Its intensity at the peak, 0 to 1")},
+         {"onset_latency_s", described("When it begins", "s")},
+         {"peak_latency_s", described("When it is at its peak", "s")},
+         {"offset_latency_s", described("When it is back at rest, or the clip ends", "s")},
+         {"acceleration", described("Exponent p of the rise: its largest speed is amplitude p / "
+                                    "(peak_latency_s - onset_latency_s)")},
+         {"deceleration", described("The same of the fall")},
+         {"seen_mm",
+          described("Farthest way of a landmark in the clip, of all units together", "mm")}});
     return out;
 }
 

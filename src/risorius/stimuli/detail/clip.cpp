@@ -12,6 +12,7 @@
 #include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
 #include "risorius/core/input_log.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/core/read_file.h"
@@ -73,14 +74,14 @@ void show_matched(const UnmatchedRender& render, const ProgressMonitor& monitor,
 Json matched_luminance(const ClipPlan& plan, const UnmatchedRender& render,
                        const ClipPictures& pictures) {
     const media::Tone tone = plan.tone.value_or(media::Tone{});
-    Json out{{"film_sha256", plan.render_sha256},
-             {"within", plan.luminance->within_face ? "face" : "picture"},
-             {"gain", plan.mapped ? Json() : Json(tone.gain)},
-             {"offset", plan.mapped ? Json() : Json(tone.offset)},
-             {"before", json_of(render.luminance)},
-             {"colours", render.colours},
-             {"after", json_of(pictures.luminance())},
-             {"cut_off", pictures.cut_off()}};
+    Json out = json_object({{"film_sha256", plan.render_sha256},
+                            {"within", plan.luminance->within_face ? "face" : "picture"},
+                            {"gain", plan.mapped ? Json() : Json(tone.gain)},
+                            {"offset", plan.mapped ? Json() : Json(tone.offset)},
+                            {"before", json_of(render.luminance)},
+                            {"colours", render.colours},
+                            {"after", json_of(pictures.luminance())},
+                            {"cut_off", pictures.cut_off()}});
     if (plan.mapped) out.update(pictures.map_report());
     return out;
 }
@@ -282,32 +283,33 @@ Json sidecar_of(const ClipPlan& plan, ShownClip shown, ClipPictures& pictures) {
     Json motion = json_of(shown.motion, pictures.pixel_onset());
     motion["commanded_onset_s"] = or_null(shown.commanded_onset_s);
     motion["commanded_apex_s"] = or_null(shown.commanded_apex_s);
-    Json record{{"format", "risorius-clip"},
-                {"version", 1},
-                {"stim_id", plan.condition.clip},
-                {"set", plan.condition.set},
-                {"control", plan.condition.control.name()},
-                {"of", plan.condition.of},
-                {"values", Json::object()},
-                {"frames", plan.frames},
-                {"fps", plan.fps},
-                {"duration_s", static_cast<double>(plan.frames) / plan.fps},
-                {"movement_onset_frame", or_null(shown.motion.onset)},
-                {"apex_frame", or_null(shown.motion.apex)},
-                {"motion", std::move(motion)},
-                {"pictures_sha256", pictures.sha256()},
-                {"content_sha256", plan.content_sha256},
-                {"files", Json::object()},
-                {"run", std::move(shown.run)}};
+    Json record = json_object({{"format", "risorius-clip"},
+                               {"version", 1},
+                               {"stim_id", plan.condition.clip},
+                               {"set", plan.condition.set},
+                               {"control", plan.condition.control.name()},
+                               {"of", plan.condition.of},
+                               {"values", Json::object()},
+                               {"frames", plan.frames},
+                               {"fps", plan.fps},
+                               {"duration_s", static_cast<double>(plan.frames) / plan.fps},
+                               {"movement_onset_frame", or_null(shown.motion.onset)},
+                               {"apex_frame", or_null(shown.motion.apex)},
+                               {"motion", std::move(motion)},
+                               {"pictures_sha256", pictures.sha256()},
+                               {"content_sha256", plan.content_sha256},
+                               {"files", Json::object()},
+                               {"run", std::move(shown.run)}});
     for (const auto& [name, value] : plan.condition.values) record["values"][name] = value;
     if (plan.sound)
-        record["audio"] = {{"file", plan.sound->file.filename().generic_string()},
-                           {"sha256", plan.sound->sha256},
-                           {"offset_samples", plan.sound->offset_samples},
-                           {"gain_db", plan.sound->gain_db},
-                           {"onset_s", or_null(plan.sound->onset_s)},
-                           {"loudness_lufs", finite_or_null(plan.sound->loudness.integrated_lufs)},
-                           {"true_peak_dbtp", finite_or_null(plan.sound->loudness.true_peak_dbtp)}};
+        record["audio"] =
+            json_object({{"file", plan.sound->file.filename().generic_string()},
+                         {"sha256", plan.sound->sha256},
+                         {"offset_samples", plan.sound->offset_samples},
+                         {"gain_db", plan.sound->gain_db},
+                         {"onset_s", or_null(plan.sound->onset_s)},
+                         {"loudness_lufs", finite_or_null(plan.sound->loudness.integrated_lufs)},
+                         {"true_peak_dbtp", finite_or_null(plan.sound->loudness.true_peak_dbtp)}});
     if (!shown.luminance.is_null()) record["luminance"] = std::move(shown.luminance);
     return record;
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/sha256.h"
 #include "risorius/core/version.h"
@@ -71,8 +72,8 @@ std::string ClipPlan::shown_sha256() const {
 
 void ClipPlan::match(const media::Tone& matched) {
     tone = matched;
-    content_sha256 = animate::sha256_of_text(json_text(
-        Json{{"content", content_sha256}, {"gain", tone->gain}, {"offset", tone->offset}}));
+    content_sha256 = animate::sha256_of_text(json_text(json_object(
+        {{"content", content_sha256}, {"gain", tone->gain}, {"offset", tone->offset}})));
 }
 
 namespace {
@@ -132,14 +133,15 @@ void check_control(const ClipPlan& plan, const track::ScriptDescription& script,
 /// The checksum of everything that the unmatched pictures depend on.
 std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256) {
     const design::Condition& condition = plan.condition;
-    Json rendered{{"toolkit", kVersion},
-                  {"compiler", __VERSION__},
-                  {"script", condition.script},
-                  {"rig", rig_sha256},
-                  {"quality", plan.clips.quality},
-                  {"layers", plan.luminance.has_value()},
-                  {"flipped", condition.control.kind == design::ControlKind::kFlipped},
-                  {"within", plan.luminance && plan.luminance->within_face ? "face" : "picture"}};
+    Json rendered = json_object(
+        {{"toolkit", kVersion},
+         {"compiler", __VERSION__},
+         {"script", condition.script},
+         {"rig", rig_sha256},
+         {"quality", plan.clips.quality},
+         {"layers", plan.luminance.has_value()},
+         {"flipped", condition.control.kind == design::ControlKind::kFlipped},
+         {"within", plan.luminance && plan.luminance->within_face ? "face" : "picture"}});
     for (const Json::json_pointer& key : file_keys(condition.script)) {
         rendered["script"][key] = "";
         const fs::path file = condition.script.at(key).get<std::string>();
@@ -172,13 +174,14 @@ std::string content_sha256_of(const ClipPlan& plan) {
     // What the name of a control does not tell; older controls keep their checksums
     if (const Json unnamed = condition.control.unnamed(); !unnamed.is_null())
         content["control_keys"] = unnamed;
-    if (plan.has_aois()) content["aois"] = {{"names", clips.aois}, {"margin", clips.aoi_margin}};
+    if (plan.has_aois())
+        content["aois"] = json_object({{"names", clips.aois}, {"margin", clips.aoi_margin}});
     if (plan.luminance && plan.luminance->grey) content["grey"] = true;
     if (plan.lead_frames > 0) content["lead_frames"] = plan.lead_frames;
     if (plan.sound)
-        content["sound"] = {{"file", plan.sound->sha256},
-                            {"offset_samples", plan.sound->offset_samples},
-                            {"gain_db", plan.sound->gain_db}};
+        content["sound"] = json_object({{"file", plan.sound->sha256},
+                                        {"offset_samples", plan.sound->offset_samples},
+                                        {"gain_db", plan.sound->gain_db}});
     return animate::sha256_of_text(json_text(content));
 }
 

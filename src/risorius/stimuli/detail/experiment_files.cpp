@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/stimuli/detail/experiment_programs.h"
 
@@ -81,15 +82,16 @@ std::vector<Json> condition_rows(const BatchPlan& plan, const std::vector<Json>&
     for (std::size_t i = 0; i < plan.clips.size(); ++i) {
         const ClipPlan& clip = plan.clips[i];
         if (!is_shown(*plan.experiment, clip.condition)) continue;
-        Json row{{"stim_id", clip.condition.clip},
-                 {"stim_file", clip_files(clip).video.filename().generic_string()},
-                 {"set", clip.condition.set},
-                 {"control", clip.condition.control.name()},
-                 {"frames", records[i].at("frames")},
-                 {"fps", records[i].at("fps")},
-                 {"audio_file", clip.sound ? "../stimuli/stim-" + clip.condition.clip + "_audio.wav"
-                                           : std::string()},
-                 {"correct_key", correct_key(*plan.experiment, clip.condition)}};
+        Json row = json_object(
+            {{"stim_id", clip.condition.clip},
+             {"stim_file", clip_files(clip).video.filename().generic_string()},
+             {"set", clip.condition.set},
+             {"control", clip.condition.control.name()},
+             {"frames", records[i].at("frames")},
+             {"fps", records[i].at("fps")},
+             {"audio_file",
+              clip.sound ? "../stimuli/stim-" + clip.condition.clip + "_audio.wav" : std::string()},
+             {"correct_key", correct_key(*plan.experiment, clip.condition)}});
         for (const std::string& name : names) {
             const auto value =
                 std::find_if(clip.condition.values.begin(), clip.condition.values.end(),
@@ -177,16 +179,16 @@ void write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
     const std::vector<Json> rows = condition_rows(plan, records);
     Json answers = Json::array();
     for (const auto& [key, answer] : experiment.answers)
-        answers.push_back({{"key", key}, {"answer", answer}});
-    const Json settings{{"name", plan.name},
-                        {"clips", "../stimuli/"},
-                        {"question", experiment.question},
-                        {"answers", answers},
-                        {"repetitions", experiment.repetitions},
-                        {"fixation_s", experiment.fixation_s},
-                        {"answer_during", experiment.answer_during},
-                        {"pulse_ms", plan.pulse_ms},
-                        {"background", screen_colour(plan)}};
+        answers.push_back(json_object({{"key", key}, {"answer", answer}}));
+    const Json settings = json_object({{"name", plan.name},
+                                       {"clips", "../stimuli/"},
+                                       {"question", experiment.question},
+                                       {"answers", answers},
+                                       {"repetitions", experiment.repetitions},
+                                       {"fixation_s", experiment.fixation_s},
+                                       {"answer_during", experiment.answer_during},
+                                       {"pulse_ms", plan.pulse_ms},
+                                       {"background", screen_colour(plan)}});
     const auto write = [&](const char* name, const std::string& text) {
         write_below(fs::path("experiment") / name, text);
     };

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 
 namespace risorius::stimuli {
@@ -54,7 +55,7 @@ constexpr std::array kByEnd{
     FrameColumn{".v_px", "Landmark in the picture, from its upper border", "px"}};
 
 Json text_of_column(const FrameColumn& column) {
-    Json out{{"Description", column.description}};
+    Json out = json_object({{"Description", column.description}});
     if (*column.units) out["Units"] = column.units;
     return out;
 }
@@ -68,12 +69,12 @@ Json column_named(const std::string& name) {
         if (name.ends_with(column.name)) return text_of_column(column);
     if (name.starts_with("AU") && name.size() > 2 &&
         std::isdigit(static_cast<unsigned char>(name[2])))
-        return {{"Description", "Intensity of an action unit in the script, 0 to 1"}};
+        return json_object({{"Description", "Intensity of an action unit in the script, 0 to 1"}});
     if (name.find("_deg") != std::string::npos)
-        return {{"Description", "Rotation by the script"}, {"Units", "deg"}};
+        return json_object({{"Description", "Rotation by the script"}, {"Units", "deg"}});
     if (name.find("_mm") != std::string::npos)
-        return {{"Description", "Distance in the face"}, {"Units", "mm"}};
-    return {{"Description", "Channel of the script, or of its speech"}};
+        return json_object({{"Description", "Distance in the face"}, {"Units", "mm"}});
+    return json_object({{"Description", "Channel of the script, or of its speech"}});
 }
 
 }  // namespace
@@ -82,8 +83,8 @@ std::string frame_columns(const std::string& table, const ClipPlan& plan) {
     Json out = Json::object();
     std::istringstream names(table.substr(0, table.find('\n')));
     for (std::string name; std::getline(names, name, '\t');) out[name] = column_named(name);
-    out["StimulusPresentation"] = {
-        {"ScreenDistance", "n/a"}, {"SoftwareName", "Risorius"}, {"FrameRate", plan.fps}};
+    out["StimulusPresentation"] = json_object(
+        {{"ScreenDistance", "n/a"}, {"SoftwareName", "Risorius"}, {"FrameRate", plan.fps}});
     return json_text(out, 1) + "\n";
 }
 

@@ -9,6 +9,7 @@
 #include "risorius/animate/frame_rows.h"
 #include "risorius/core/error.h"
 #include "risorius/core/input_log.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/media/video_reader.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
@@ -143,16 +144,16 @@ void name_maps(BatchPlan& plan) {
     Json renders = Json::array();
     for (const ClipPlan& clip : plan.clips)
         if (!clip.is_control()) renders.push_back(clip.render_sha256);
-    const Json of{{"renders", renders},
-                  {"one_for", static_cast<int>(match.one_for)},
-                  {"mean", match.mean ? Json(*match.mean) : Json()},
-                  {"sd", match.sd ? Json(*match.sd) : Json()},
-                  {"spectrum", match.spectrum},
-                  {"rounds", match.rounds}};
+    const Json of = json_object({{"renders", renders},
+                                 {"one_for", static_cast<int>(match.one_for)},
+                                 {"mean", match.mean ? Json(*match.mean) : Json()},
+                                 {"sd", match.sd ? Json(*match.sd) : Json()},
+                                 {"spectrum", match.spectrum},
+                                 {"rounds", match.rounds}});
     const std::string digest = animate::sha256_of_text(json_text(of));
     for (ClipPlan& clip : plan.clips)
         clip.content_sha256 = animate::sha256_of_text(
-            json_text(Json{{"content", clip.content_sha256}, {"maps", digest}}));
+            json_text(json_object({{"content", clip.content_sha256}, {"maps", digest}})));
 }
 
 bool all_made(const BatchPlan& plan, const fs::path& folder) {
@@ -224,13 +225,14 @@ Json MapReport::json() const {
     double squares = 0;
     for (std::size_t i = 0; i < shown.size(); ++i)
         squares += std::pow(shown[i] - mapped_->target[i], 2);
-    Json out{{"histogram_error", std::sqrt(squares / static_cast<double>(shown.size())) /
-                                     media::sd_of_quantiles(mapped_->target)}};
+    Json out =
+        json_object({{"histogram_error", std::sqrt(squares / static_cast<double>(shown.size())) /
+                                             media::sd_of_quantiles(mapped_->target)}});
     if (mapped_->amplitudes.empty()) return out;
     const double faces = std::max(width_px_, height_px_) / face_px_;
-    out["spectrum"] = {{"before", octaves_of(before_.amplitudes(), faces)},
-                       {"after", octaves_of(shown_.amplitudes(), faces)},
-                       {"target", octaves_of(mapped_->amplitudes, faces)}};
+    out["spectrum"] = json_object({{"before", octaves_of(before_.amplitudes(), faces)},
+                                   {"after", octaves_of(shown_.amplitudes(), faces)},
+                                   {"target", octaves_of(mapped_->amplitudes, faces)}});
     return out;
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/stimuli/detail/catalogue.h"
 #include "risorius/stimuli/detail/luminance_maps.h"
@@ -210,19 +211,20 @@ std::vector<plot::Chart> write_luminance_report(const BatchPlan& plan,
     }
     const Together of = together(records);
     const auto described = [](const media::LuminanceSums& sums) {
-        return Json{{"mean", sums.mean()}, {"sd", sums.sd()}};
+        return json_object({{"mean", sums.mean()}, {"sd", sums.sd()}});
     };
     const auto wanted = [](const std::optional<double>& value) {
         return value ? Json(*value) : Json();
     };
-    const Json json{{"within", match.within_face ? "face" : "picture"},
-                    {"one_for", match.one_for == OneFor::kAll        ? "all"
-                                : match.one_for == OneFor::kIdentity ? "identity"
-                                                                     : "clip"},
-                    {"wanted", {{"mean", wanted(match.mean)}, {"sd", wanted(match.sd)}}},
-                    {"before", described(of.before)},
-                    {"after", described(of.after)},
-                    {"greatest_cut_off", of.cut_off}};
+    const Json json = json_object(
+        {{"within", match.within_face ? "face" : "picture"},
+         {"one_for", match.one_for == OneFor::kAll        ? "all"
+                     : match.one_for == OneFor::kIdentity ? "identity"
+                                                          : "clip"},
+         {"wanted", json_object({{"mean", wanted(match.mean)}, {"sd", wanted(match.sd)}})},
+         {"before", described(of.before)},
+         {"after", described(of.after)},
+         {"greatest_cut_off", of.cut_off}});
     write(below / "luminance.tsv", table);
     if (match.spectrum) write(below / "spectrum.tsv", spectrum_table(records));
     write(below / "luminance.json", json_text(json, 2) + "\n");

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/design/table.h"
 #include "risorius/stimuli/detail/catalogue.h"
@@ -200,20 +201,20 @@ Json Norms::json() const {
             share.count += times;
             share.hits += answer == right ? times : 0;
         }
-        answers[right] = {{"shown", share.count},
-                          {"hit_rate", share.value()},
-                          {"low", share.low()},
-                          {"high", share.high()},
-                          {"unbiased_hit_rate", *unbiased_hit_rate(right)}};
+        answers[right] = json_object({{"shown", share.count},
+                                      {"hit_rate", share.value()},
+                                      {"low", share.low()},
+                                      {"high", share.high()},
+                                      {"unbiased_hit_rate", *unbiased_hit_rate(right)}});
     }
     Json reliability = Json::object();
     for (const auto& [scale, value] : icc) reliability[scale] = value;
-    return {{"format", "risorius-norms"},
-            {"version", 1},
-            {"clips", clips.size()},
-            {"answers", answers},
-            {"fleiss_kappa", kappa ? Json(*kappa) : Json()},
-            {"icc_2_k", reliability}};
+    return json_object({{"format", "risorius-norms"},
+                        {"version", 1},
+                        {"clips", clips.size()},
+                        {"answers", answers},
+                        {"fleiss_kappa", kappa ? Json(*kappa) : Json()},
+                        {"icc_2_k", reliability}});
 }
 
 std::string Norms::confusion_table() const {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/json_object.h"
 #include "risorius/core/rotations.h"
 
 namespace risorius::stimuli {
@@ -200,17 +201,17 @@ double largest_way_mm(const animate::LandmarkFrames& frames) {
 Json json_of(const SeenMotion& motion, std::optional<int> pixel_onset) {
     const auto or_null = [](const auto& value) { return value ? Json(*value) : Json(); };
     const bool still = !motion.seen_mm;
-    return {{"seen_mm", or_null(motion.seen_mm)},
-            {"seen_landmark", motion.landmark.empty() ? Json() : Json(motion.landmark)},
-            {"full_mm", or_null(motion.full_mm)},
-            {"seen_onset_frame", or_null(motion.onset)},
-            {"seen_apex_frame", or_null(motion.apex)},
-            {"seen_offset_frame", or_null(motion.offset)},
-            {"velocity_peak_mm_s", or_null(motion.velocity_peak_mm_s)},
-            {"pixel_onset_frame", still ? Json() : or_null(pixel_onset)},
-            {"head_onset_frame", or_null(motion.head_onset)},
-            {"blink_onset_frame", or_null(motion.blink_onset)},
-            {"gaze_onset_frame", or_null(motion.gaze_onset)}};
+    return json_object({{"seen_mm", or_null(motion.seen_mm)},
+                        {"seen_landmark", motion.landmark.empty() ? Json() : Json(motion.landmark)},
+                        {"full_mm", or_null(motion.full_mm)},
+                        {"seen_onset_frame", or_null(motion.onset)},
+                        {"seen_apex_frame", or_null(motion.apex)},
+                        {"seen_offset_frame", or_null(motion.offset)},
+                        {"velocity_peak_mm_s", or_null(motion.velocity_peak_mm_s)},
+                        {"pixel_onset_frame", still ? Json() : or_null(pixel_onset)},
+                        {"head_onset_frame", or_null(motion.head_onset)},
+                        {"blink_onset_frame", or_null(motion.blink_onset)},
+                        {"gaze_onset_frame", or_null(motion.gaze_onset)}});
 }
 
 }  // namespace risorius::stimuli

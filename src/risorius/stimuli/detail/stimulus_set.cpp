@@ -8,6 +8,7 @@
 #include <set>
 
 #include "risorius/core/input_log.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/core/sha256.h"
@@ -43,16 +44,18 @@ std::string read_me(const BatchPlan& plan) {
 }
 
 Json dataset_description(const BatchPlan& plan) {
-    Json out{{"Name", plan.name},
-             {"BIDSVersion", "1.10.0"},
-             {"HEDVersion", "8.4.0"},
-             {"DatasetType", "derivative"},
-             {"License", plan.dataset.license},
-             {"Authors", plan.dataset.authors},
-             {"GeneratedBy",
-              Json::array({{{"Name", "Risorius"},
-                            {"Version", kVersion},
-                            {"Description", "Simulated and rendered: every face is synthetic"}}})}};
+    Json out = json_object(
+        {{"Name", plan.name},
+         {"BIDSVersion", "1.10.0"},
+         {"HEDVersion", "8.4.0"},
+         {"DatasetType", "derivative"},
+         {"License", plan.dataset.license},
+         {"Authors", plan.dataset.authors},
+         {"GeneratedBy",
+          Json::array({json_object(
+              {{"Name", "Risorius"},
+               {"Version", kVersion},
+               {"Description", "Simulated and rendered: every face is synthetic"}})})}});
     return out;
 }
 

@@ -7,6 +7,7 @@
 #include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
 #include "risorius/core/input_log.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/core/sha256.h"
@@ -54,7 +55,7 @@ std::optional<UnmatchedRender> complete_render(const ClipPlan& plan, const std::
 }  // namespace
 
 Json json_of(const media::LuminanceSums& sums) {
-    return {{"weight", sums.weight}, {"sum", sums.sum}, {"squares", sums.squares}};
+    return json_object({{"weight", sums.weight}, {"sum", sums.sum}, {"squares", sums.squares}});
 }
 
 media::LuminanceSums sums_of(const Json& json) {
@@ -125,12 +126,12 @@ void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker) {
         measured.sums.add(picture, weights);
         measured.colours.add(picture, weights);
     }
-    write_file(record_file, json_text(Json{{"film_sha256", plan.render_sha256},
-                                           {"video_sha256", sha256_of_file(video_file)},
-                                           {"table_sha256", sha256_of_file(table_file)},
-                                           {"luminance", json_of(measured.sums)},
-                                           {"colours", measured.colours.text()},
-                                           {"run", portable_record(result.record)}},
+    write_file(record_file, json_text(json_object({{"film_sha256", plan.render_sha256},
+                                                   {"video_sha256", sha256_of_file(video_file)},
+                                                   {"table_sha256", sha256_of_file(table_file)},
+                                                   {"luminance", json_of(measured.sums)},
+                                                   {"colours", measured.colours.text()},
+                                                   {"run", portable_record(result.record)}}),
                                       1) +
                                 "\n");
     worker.monitor.throw_if_stopped();

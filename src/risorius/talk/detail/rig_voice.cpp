@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/solve/nonnegative_least_squares.h"
 
 namespace risorius::talk {
@@ -116,7 +117,7 @@ Eigen::VectorXd RigVoice::activation_for(const WantedMouth& wanted, Eigen::Vecto
 }
 
 Json RigVoice::json(const std::string& hash) const {
-    Json out{{"format", "risorius-voice"}, {"version", 1}, {"hash", hash}};
+    Json out = json_object({{"format", "risorius-voice"}, {"version", 1}, {"hash", hash}});
     out["columns"] = columns_;
     out["jaw_travel_mm"] = jaw_travel_mm_;
     out["poses"] = Json::array();

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "risorius/core/json_object.h"
+
 namespace risorius::view {
 
 namespace {
@@ -33,8 +35,13 @@ std::string words(std::string id) {
 
 Json channel(const std::string& name, const char* group, const std::string& label, double min,
              double max, bool sided, const std::string& unit = "") {
-    return {{"name", name}, {"group", group}, {"label", label}, {"min", min},
-            {"max", max},   {"sided", sided}, {"unit", unit}};
+    return json_object({{"name", name},
+                        {"group", group},
+                        {"label", label},
+                        {"min", min},
+                        {"max", max},
+                        {"sided", sided},
+                        {"unit", unit}});
 }
 
 double rounded(double value) { return std::round(value * 1e4) / 1e4; }

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "risorius/core/json_object.h"
+
 namespace risorius::view {
 
 namespace {
@@ -53,9 +55,9 @@ Json pull_json(const track::PullTrack& track) {
         keys.push_back({rounded(key.time_s, 1e6),
                         {rounded(p.x(), 100), rounded(p.y(), 100), rounded(p.z(), 100)}});
     }
-    return {{"vertex", track.vertex},
-            {"stiffness_n_per_m", track.stiffness_n_per_m},
-            {"keys_mm", keys}};
+    return json_object({{"vertex", track.vertex},
+                        {"stiffness_n_per_m", track.stiffness_n_per_m},
+                        {"keys_mm", keys}});
 }
 
 }  // namespace risorius::view

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Objects from lists of fields are those that the JSON library makes of lists of pairs.
+#include "risorius/core/json_object.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace risorius {
+namespace {
+
+TEST(JsonObject, IsWhatAListOfPairsMakes) {
+    const std::vector<double> ways{0.5, 1.0};
+    const std::string name = "smile";
+    Json pairs{{"name", name},
+               {"count", 3},
+               {"share", 0.25},
+               {"on", true},
+               {"none", nullptr},
+               {"ways", ways},
+               {"size", {640, 480}},
+               {"rest", Json::array()},
+               {"head", {{"yaw_deg", -4}}}};
+    const Json fields = json_object({{"name", name},
+                                     {"count", 3},
+                                     {"share", 0.25},
+                                     {"on", true},
+                                     {"none", nullptr},
+                                     {"ways", ways},
+                                     {"size", {640, 480}},
+                                     {"rest", Json::array()},
+                                     {"head", json_object({{"yaw_deg", -4}})}});
+    EXPECT_EQ(fields.dump(), pairs.dump());
+    EXPECT_EQ(fields.at("count").type(), pairs.at("count").type());
+    EXPECT_EQ(json_object({}).dump(), "{}");
+}
+
+TEST(JsonObject, KeepsTheFirstOfTwoFieldsWithOneName) {
+    EXPECT_EQ(json_object({{"a", 1}, {"b", 2}, {"a", 3}}).dump(), R"({"a":1,"b":2})");
+}
+
+}  // namespace
+}  // namespace risorius
