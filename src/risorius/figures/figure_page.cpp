@@ -85,14 +85,14 @@ void count(const FigureResult& figure, Counts& counts) {
 /// Significant digits that distinguish the ends of the range and the measured value.
 int digits_of(const Check& check) {
     constexpr int kFewest = 4, kMax = 10;
-    constexpr double kRounding = 0.05;  ///< fraction of the width of the range
+    constexpr double kOfWidth = 0.05;  ///< fraction of the width of the range
     const double width = check.high - check.low;
     if (!(width > 0) || std::isinf(width)) return kFewest;
     for (int digits = kFewest; digits < kMax; ++digits) {
         const auto moves = [&](double end) {
             char text[32];
             std::snprintf(text, sizeof text, "%.*g", digits, end);
-            return std::abs(std::stod(text) - end) > kRounding * width;
+            return std::abs(std::stod(text) - end) > kOfWidth * width;
         };
         if (!moves(check.low) && !moves(check.high)) return digits;
     }
