@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Objects from lists of fields are those that the JSON library makes of lists of pairs.
+// Objects from lists of fields.
 #include "risorius/core/json_object.h"
 
 #include <gtest/gtest.h>
@@ -10,18 +10,9 @@
 namespace risorius {
 namespace {
 
-TEST(JsonObject, IsWhatAListOfPairsMakes) {
+TEST(JsonObject, KeepsTheOrderAndTheTypesOfItsFields) {
     const std::vector<double> ways{0.5, 1.0};
     const std::string name = "smile";
-    Json pairs{{"name", name},
-               {"count", 3},
-               {"share", 0.25},
-               {"on", true},
-               {"none", nullptr},
-               {"ways", ways},
-               {"size", {640, 480}},
-               {"rest", Json::array()},
-               {"head", {{"yaw_deg", -4}}}};
     const Json fields = json_object({{"name", name},
                                      {"count", 3},
                                      {"share", 0.25},
@@ -31,8 +22,9 @@ TEST(JsonObject, IsWhatAListOfPairsMakes) {
                                      {"size", {640, 480}},
                                      {"rest", Json::array()},
                                      {"head", json_object({{"yaw_deg", -4}})}});
-    EXPECT_EQ(fields.dump(), pairs.dump());
-    EXPECT_EQ(fields.at("count").type(), pairs.at("count").type());
+    EXPECT_EQ(fields.dump(),
+              R"({"name":"smile","count":3,"share":0.25,"on":true,"none":null,"ways":[0.5,1.0],)"
+              R"("size":[640,480],"rest":[],"head":{"yaw_deg":-4}})");
     EXPECT_EQ(json_object({}).dump(), "{}");
 }
 

@@ -15,8 +15,8 @@ namespace risorius {
 /// A key with its value.
 struct JsonField {
     std::string_view name;
-    mutable Json
-        value;  ///< json_object() takes it over: elements of an initializer list are constant
+    /// json_object() takes it over, although elements of an initializer list are constant.
+    mutable Json value;
 };
 
 /// An object with these fields, in this order. Of fields with the same name, the first counts. The values are moved, so that a
