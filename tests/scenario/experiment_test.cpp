@@ -303,6 +303,55 @@ TEST_F(Experiment, OfJsPsychKeepsItsAnswersWhenTheyCannotBeSaved) {
         << left.at("offered");
 }
 
+/// The design of this suite with pictures in place of its clips, made into `stills`.
+stimuli::BatchReport make_stills(const Folder& folder) {
+    Json design = Json::parse(text_of(folder / "design.json"));
+    design.erase("match");
+    design["clips"] = Json::parse(R"({"quality": "draft", "ending": "png", "shown_s": 0.25})");
+    design["experiment"]["jspsych_from"] = "../../node_modules";
+    for (const char* key : {"audio", "audio_start_s", "parameters", "overrides"})
+        design["sets"][0].erase(key);
+    std::ofstream(folder / "stills.json") << design.dump();
+    stimuli::BatchOptions options;
+    options.design = folder / "stills.json";
+    options.out = folder / "stills";
+    options.workers = 1;
+    return stimuli::make_batch(options);
+}
+
+TEST_F(Experiment, OfPicturesShowsEachForItsTime) {
+    ASSERT_TRUE(make_stills(*folder).complete);
+    if (run_program({"python3", "--version"}).exit_code != 0) GTEST_SKIP() << "no python3 here";
+    const fs::path here = *folder / "stills/experiment";
+    const report::ProgramResult result = play(here, "60");
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    const std::string data = text_of(data_files(here, ".csv").front());
+    for (const char* clip : {"happiness", "fear"}) {
+        const std::string codes = codes_in_table(*folder / "stills", clip, 1 / 60.0);
+        EXPECT_EQ(codes, "1@0.0000 0@0.0167 4@0.2500 0@0.2667");
+        EXPECT_NE(data.find("stim-" + std::string(clip) + "_image.png"), std::string::npos) << data;
+        EXPECT_NE(data.find("," + codes + ",0,0.00"), std::string::npos) << data;
+    }
+    EXPECT_NE(text_of(data_files(here, "_events.tsv").front()).find("\t0.2500\t"),
+              std::string::npos);
+    if (const std::string missing = missing_browser(); !missing.empty()) GTEST_SKIP() << missing;
+    const report::ProgramResult played = run_program(
+        {"python3", (kStandIns / "play.py").string(), folder->path().string(),
+         "stills/experiment/index.html", (*folder / "stills_data.json").string(), "chromium"});
+    ASSERT_EQ(played.exit_code, 0) << played.output;
+    const Json trials = Json::parse(text_of(*folder / "stills_data.json"), nullptr, false);
+    ASSERT_TRUE(trials.is_array()) << trials;
+    std::set<std::string> shown;
+    for (const Json& trial : trials)
+        if (trial.value("task", "") == "clip") {
+            shown.insert(trial.at("stim_id").get<std::string>());
+            EXPECT_NE(trial.at("stimulus").get<std::string>().find("_image.png"),
+                      std::string::npos);
+            EXPECT_TRUE(trial.at("first_frame_ms").is_number());
+        }
+    EXPECT_EQ(shown, (std::set<std::string>{"fear", "happiness"}));
+}
+
 TEST_F(Experiment, PageNamesTheVersionsAndHashesOfWhatItLoads) {
     const fs::path modules = jspsych();
     if (modules.empty()) GTEST_SKIP() << "no jsPsych here (tools/setup.sh test fetches it by npm)";

@@ -13,7 +13,7 @@
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
-#include "risorius/core/version.h"
+#include "risorius/core/toolkit_record.h"
 #include "risorius/face/fields.h"
 #include "risorius/io/vtk_file.h"
 #include "risorius/report/atomic_file.h"
@@ -248,8 +248,7 @@ Json export_fields(const ExportOptions& options, const ProgressMonitor& monitor)
     Json record = Json::object();
     record["format"] = "risorius-export";
     record["version"] = 1;
-    record["toolkit"] =
-        json_object({{"name", "Risorius"}, {"version", kVersion}, {"compiler", __VERSION__}});
+    record["toolkit"] = toolkit_record();
     record["script"] = job.script_file.path.generic_string();
     record["rig"] = job.rig->rig.path.generic_string();
     record["quality"] = job.quality;

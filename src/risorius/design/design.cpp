@@ -47,6 +47,7 @@ double chance(int seed, const std::string& name, int index) {
 constexpr int kMaxLevels = 100000;
 constexpr double kBroadcastLufs = -23;  // EBU R 128
 constexpr int kMaxRounds = 50;
+constexpr double kLongest_s = 3600;  // of a script or a picture
 
 Factor read_factor(const JsonCursor& json, const std::string& name, int seed) {
     Factor factor{.name = name, .levels = {}};
@@ -148,9 +149,18 @@ ConditionSet read_set(const JsonCursor& json, int seed) {
 
 ClipOptions read_clips(const JsonCursor& json) {
     json.allow_keys({"ending", "quality", "crf", "lossless", "landmarks", "photodiode",
-                     "keyframe_interval", "aois", "aoi_margin"});
+                     "keyframe_interval", "aois", "aoi_margin", "still_s", "shown_s"});
     ClipOptions clips;
-    if (const auto v = json.find("ending")) clips.ending = v->one_of({"mp4", "mov", "mkv", "webm"});
+    if (const auto v = json.find("ending"))
+        clips.ending = v->one_of({"mp4", "mov", "mkv", "webm", "png"});
+    for (const char* key : {"crf", "lossless", "keyframe_interval", "photodiode"})
+        if (clips.pictures() && json.find(key))
+            json.at(key).fail("none beside \"ending\": \"png\", which makes pictures");
+    for (const char* key : {"still_s", "shown_s"})
+        if (!clips.pictures() && json.find(key))
+            json.at(key).fail("none without \"ending\": \"png\"");
+    if (const auto v = json.find("still_s")) clips.still_s = v->number({0, kLongest_s});
+    if (const auto v = json.find("shown_s")) clips.shown_s = v->number({0.001, kLongest_s});
     if (const auto v = json.find("quality"))
         clips.quality = v->one_of({"draft", "preview", "video", "fine"});
     if (const auto v = json.find("crf")) clips.crf = v->integer(0, 63);
@@ -282,6 +292,9 @@ Design read_design(const std::filesystem::path& file) {
     if (const auto v = json.find("seed")) design.seed = v->integer(0, 2147483647);
     if (const auto v = json.find("clips")) design.clips = read_clips(*v);
     if (const auto v = json.find("match")) design.match = read_match(*v);
+    if (design.match.motion && design.clips.still_s)
+        json.at("clips").at("still_s").fail(
+            "none beside a match of motion, which is that at the apex");
     if (const auto v = json.find("experiment")) design.experiment = read_experiment(*v);
     if (const auto v = json.find("dataset")) {
         v->allow_keys({"authors", "license", "copyright"});

@@ -55,7 +55,9 @@ struct ConditionSet {
 
 /// How every clip is written.
 struct ClipOptions {
-    std::string ending = "mp4";  ///< mp4, mov, mkv or webm
+    std::string ending = "mp4";     ///< mp4, mov, mkv or webm; png: each clip is one picture
+    std::optional<double> still_s;  ///< of pictures: when in the script, s; default: at the apex
+    double shown_s = 1;             ///< of pictures: how long an experiment shows each, s
     std::string quality = "video";
     std::optional<int> crf;
     bool lossless = false;
@@ -65,6 +67,8 @@ struct ClipOptions {
     std::optional<int> keyframe_interval;
     std::vector<std::string> aois;  ///< areas of interest for eye tracking, of aoi_names()
     double aoi_margin = 0.03;       ///< how much they are grown / width of the face, [0, 0.2]
+
+    bool pictures() const { return ending == "png"; }
 };
 
 /// The names of areas of interest.

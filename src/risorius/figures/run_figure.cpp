@@ -14,7 +14,7 @@
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/read_file.h"
-#include "risorius/core/version.h"
+#include "risorius/core/toolkit_record.h"
 #include "risorius/figures/detail/experiment_kind.h"
 #include "risorius/figures/detail/figure_files.h"
 #include "risorius/figures/figure_page.h"
@@ -138,8 +138,7 @@ Json results_of_all(const std::vector<ShownFigure>& figures) {
     Json json = Json::object();
     json["format"] = "risorius-figures";
     json["version"] = 1;
-    json["toolkit"] =
-        json_object({{"name", "Risorius"}, {"version", kVersion}, {"compiler", __VERSION__}});
+    json["toolkit"] = toolkit_record();
     json["passes"] = std::all_of(figures.begin(), figures.end(),
                                  [](const ShownFigure& figure) { return figure.result.passes(); });
     json["figures"] = Json::array();

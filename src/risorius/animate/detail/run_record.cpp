@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/json_object.h"
-#include "risorius/core/version.h"
+#include "risorius/core/toolkit_record.h"
 
 namespace risorius::animate {
 
@@ -37,8 +37,7 @@ Json RunRecord::json() const {
     Json json;
     json["format"] = "risorius-run";
     json["version"] = 1;
-    json["toolkit"] =
-        json_object({{"name", "Risorius"}, {"version", kVersion}, {"compiler", __VERSION__}});
+    json["toolkit"] = toolkit_record();
     json["synthetic_face"] = true;
     json["out"] = out.generic_string();
     json["script"] = file(script);

@@ -7,7 +7,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_object.h"
-#include "risorius/core/version.h"
+#include "risorius/core/toolkit_record.h"
 #include "risorius/media/image_file.h"
 #include "risorius/render/object_view.h"
 #include "risorius/report/atomic_file.h"
@@ -229,8 +229,7 @@ Json figure_json(const figures::FigureResult& figure) {
     Json json = Json::object();
     json["format"] = "risorius-figure";
     json["version"] = 1;
-    json["toolkit"] =
-        json_object({{"name", "Risorius"}, {"version", kVersion}, {"compiler", __VERSION__}});
+    json["toolkit"] = toolkit_record();
     json["id"] = figure.id;
     json["title"] = figure.title;
     json["passes"] = figure.passes();

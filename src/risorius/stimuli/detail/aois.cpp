@@ -215,13 +215,13 @@ std::vector<Aoi> aois_of(const animate::FrameRows& rows, int frame,
 }
 
 void draw_aois(const std::string& table, const ClipPlan& plan, report::HtmlWriter& html) {
-    html.open("svg", {{"viewBox", "0 0 " + std::to_string(kStripFrames * plan.width_px) + " " +
-                                      std::to_string(plan.height_px)},
+    html.open("svg", {{"viewBox", "0 0 " + std::to_string(strip_frames(plan) * plan.width_px) +
+                                      " " + std::to_string(plan.height_px)},
                       {"preserveAspectRatio", "none"},
                       {"style", "position: absolute; left: 0; top: 0; width: 100%; height: 100%"}});
     const animate::FrameRows rows = animate::frame_rows(table);
     const int names = static_cast<int>(plan.clips.aois.size());
-    for (int i = 0; i < kStripFrames; ++i) {
+    for (int i = 0; i < strip_frames(plan); ++i) {
         const int frame = strip_frame(i, plan.frames);
         for (int k = 0; k < names; ++k) {
             const std::vector<std::string>& cells =
@@ -251,7 +251,8 @@ AoiFiles aoi_files(const animate::FrameRows& source, const std::vector<int>& ord
     Json aois = Json::array();
     std::vector<Aoi> keyed;
     std::vector<double> keyed_s;
-    const double end_s = static_cast<double>(order.size()) / plan.fps;
+    const double end_s = plan.duration_s(),
+                 frame_s = plan.clips.pictures() ? end_s : 1.0 / plan.fps;
     for (std::size_t t = 0; t < order.size(); ++t) {
         std::vector<Aoi> now =
             aois_of(rows, order[t], plan.clips.aois, face_px, plan.clips.aoi_margin * face_px,
@@ -263,7 +264,7 @@ AoiFiles aoi_files(const animate::FrameRows& source, const std::vector<int>& ord
                 for (Vec2& corner : aoi.polygon)
                     corner = Vec2(plan.width_px, plan.height_px) - corner;
             char times[64];
-            std::snprintf(times, sizeof times, "%.6f\t%.6f\t", start_s, 1.0 / plan.fps);
+            std::snprintf(times, sizeof times, "%.6f\t%.6f\t", start_s, frame_s);
             out.table +=
                 times + std::to_string(t) + "\t" + aoi.name +
                 (aoi.polygon.empty() ? "\t0\t0\tn/a" : "\t1\t" + two_decimals(aoi.area_px) + "\t");

@@ -181,7 +181,7 @@ std::vector<Column> columns_of(const BatchPlan& plan, const std::vector<Json>& r
              return Json("stim-" + records[i].at("stim_id").get<std::string>());
          }},
         {"type", described("Kind of the file"),
-         [&clips](std::size_t i) { return Json(clips[i].sound ? "audiovideo" : "video"); }},
+         [&clips](std::size_t i) { return Json(clip_type(clips[i])); }},
         {"filename", described("The file, in this folder"),
          [&clips](std::size_t i) {
              return Json(clip_files(clips[i]).video.filename().generic_string());

@@ -27,6 +27,7 @@
 #include "risorius/stimuli/detail/expression_script.h"
 #include "risorius/stimuli/detail/frame_columns.h"
 #include "risorius/stimuli/detail/mirrored_rows.h"
+#include "risorius/stimuli/detail/picture_frame.h"
 #include "risorius/stimuli/detail/seen_motion.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
 
@@ -54,8 +55,7 @@ fs::path script_file(const ClipPlan& plan) {
 
 std::string stem(const ClipPlan& plan) { return "stimuli/stim-" + plan.condition.clip; }
 
-/// The suffix of BIDS for a video without and with sound.
-std::string suffix(const ClipPlan& plan) { return plan.sound ? "_audiovideo" : "_video"; }
+std::string suffix(const ClipPlan& plan) { return std::string("_") + clip_type(plan); }
 
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
@@ -121,6 +121,11 @@ std::vector<fs::path> ClipFiles::listed() const {
     return files;
 }
 
+const char* clip_type(const ClipPlan& plan) {
+    if (plan.clips.pictures()) return "image";
+    return plan.sound ? "audiovideo" : "video";
+}
+
 ClipFiles clip_files(const ClipPlan& plan) {
     const auto only = [&](const std::string& file) {
         return plan.has_aois() ? fs::path(file) : fs::path();
@@ -161,12 +166,14 @@ bool is_made(const ClipPlan& plan, const fs::path& folder) {
 }
 
 animate::RenderJob render_job_of(const ClipPlan& plan, const fs::path& out,
-                                 const media::VideoOptions& coding, const ClipWorker& worker) {
+                                 const media::VideoOptions& coding, const ClipWorker& worker,
+                                 std::optional<int> frame) {
     animate::RenderRequest request;
     request.script = plan.script_name;
     request.script_in_memory = JsonCursor::from_json(plan.condition.script, plan.script_name);
     request.out = out;
     request.video = coding;
+    if (frame) request.times_s = {static_cast<double>(*frame) / plan.fps};
     request.quality = plan.clips.quality;
     request.landmarks = true;  // what is seen to move is measured on them
     request.threads = worker.threads;
@@ -197,7 +204,8 @@ UnmatchedRender unmatched_render_for(const ClipPlan& plan, const ClipWorker& wor
 /// The content of a clip, and what the sidecar records about it.
 struct ShownClip {
     animate::FrameRows rows;
-    std::vector<int> order;  ///< for each frame of the clip: the frame of the script
+    std::vector<int> order;  ///< for each frame of the clip: its row
+    int first_source = 0;    ///< the frame of the script in the first row
     SeenMotion motion;
     std::optional<double> commanded_onset_s, commanded_apex_s;
     Json run, luminance;  ///< luminance: null if it is not matched
@@ -229,47 +237,64 @@ std::optional<double> full_motion_mm(const ClipPlan& plan, const ClipWorker& wor
     });
 }
 
-/// Renders the clip, or takes its pictures from an unmatched render, and applies the control.
-ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
-                    const std::optional<UnmatchedRender>& unmatched, const ClipWorker& worker,
-                    ClipPictures& pictures) {
-    ShownClip shown;
+/// The rows of the clip, and its pictures to `pictures`: rendered, or taken from an unmatched render.
+void show_pictures(const animate::RenderJob& job, const std::optional<UnmatchedRender>& unmatched,
+                   const ClipWorker& worker, ClipPictures& pictures, ShownClip& shown) {
     if (unmatched) {
         shown.run = unmatched->run;
         shown.rows = animate::frame_rows(unmatched->table);
         pictures.know(shown.rows);
         show_matched(*unmatched, worker.monitor, pictures);
-    } else {
-        const animate::RenderResult result = animate::run_render_job(
-            job, worker.session, [&](Image image) { pictures.add(std::move(image)); },
-            worker.monitor);
-        shown.run = portable_record(result.record);
-        shown.rows = animate::frame_rows(result.table);
+        return;
     }
+    const animate::RenderResult result = animate::run_render_job(
+        job, worker.session, [&](Image image) { pictures.add(std::move(image)); }, worker.monitor);
+    shown.run = portable_record(result.record);
+    shown.rows = animate::frame_rows(result.table);
+}
+
+/// What is seen to move in a video, and the order of its frames.
+void find_motion(const ClipPlan& plan, const animate::RenderJob& job, const ClipWorker& worker,
+                 ShownClip& shown) {
     std::optional<animate::LandmarkFrames> twin;
     if (const auto without = animate::job_without_expression(job))
         twin = animate::play_landmarks(*without, worker.session, worker.monitor);
     const design::Control& control = plan.condition.control;
-    const auto order_with = [&](int apex) {
-        std::vector<int> order =
-            design::frame_order(control, job.frames, apex, plan.condition.seed);
-        order.insert(order.begin(), static_cast<std::size_t>(plan.lead_frames), order.front());
-        return order;
-    };
     int apex = 0;
     if (control.kind == ControlKind::kApex) {
         std::vector<int> forwards(static_cast<std::size_t>(job.frames));
         std::iota(forwards.begin(), forwards.end(), 0);
         apex = seen_motion(shown.rows, twin, forwards, plan.fps).apex.value_or(0);
     }
-    shown.order = order_with(apex);
+    shown.order = design::frame_order(control, job.frames, apex, plan.condition.seed);
+    shown.order.insert(shown.order.begin(), static_cast<std::size_t>(plan.lead_frames),
+                       shown.order.front());
     // A mask shows no face.
     if (control.kind != ControlKind::kMondrian)
         shown.motion = seen_motion(shown.rows, twin, shown.order, plan.fps);
-    if (control.kind == ControlKind::kMirrored)
-        shown.motion.landmark = other_side(shown.motion.landmark);
+}
+
+/// Renders the clip, or takes its pictures from an unmatched render, and applies the control. `picture`: in a set of pictures.
+ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
+                    const std::optional<UnmatchedRender>& unmatched,
+                    const std::optional<SeenPicture>& picture, const ClipWorker& worker,
+                    ClipPictures& pictures) {
+    ShownClip shown;
+    show_pictures(job, unmatched, worker, pictures, shown);
+    const ControlKind kind = plan.condition.control.kind;
+    if (!picture) {
+        find_motion(plan, job, worker, shown);
+    } else {
+        shown.order = {0};
+        shown.first_source = picture->frame;
+        if (!picture->landmark.empty() && kind != ControlKind::kMondrian) {
+            shown.motion.seen_mm = picture->seen_mm;
+            shown.motion.landmark = picture->landmark;
+        }
+    }
+    if (kind == ControlKind::kMirrored) shown.motion.landmark = other_side(shown.motion.landmark);
     if (shown.motion.seen_mm) shown.motion.full_mm = full_motion_mm(plan, worker);
-    if (std::is_sorted(shown.order.begin(), shown.order.end()) && shown.motion.seen_mm)
+    if (!picture && std::is_sorted(shown.order.begin(), shown.order.end()) && shown.motion.seen_mm)
         find_commanded(job.script, static_cast<double>(plan.lead_frames) / plan.fps, shown);
     pictures.know(shown.rows);
     pictures.finish(shown.order);
@@ -292,7 +317,7 @@ Json sidecar_of(const ClipPlan& plan, ShownClip shown, ClipPictures& pictures) {
                                {"values", Json::object()},
                                {"frames", plan.frames},
                                {"fps", plan.fps},
-                               {"duration_s", static_cast<double>(plan.frames) / plan.fps},
+                               {"duration_s", plan.duration_s()},
                                {"movement_onset_frame", or_null(shown.motion.onset)},
                                {"apex_frame", or_null(shown.motion.apex)},
                                {"motion", std::move(motion)},
@@ -334,19 +359,31 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
     coding.lossless = plan.clips.lossless;
     coding.keyframe_interval = keyframe_interval(plan);
     coding.still = shows_one_picture(plan.condition.control.kind) && !plan.clips.photodiode;
-    animate::RenderJob job = render_job_of(plan, video_file, coding, worker);
+    std::optional<SeenPicture> picture;
+    if (plan.clips.pictures())
+        picture = unmatched ? unmatched->picture : picture_frame(plan, worker);
+    animate::RenderJob job =
+        render_job_of(plan, plan.clips.pictures() ? folder / "none.mkv" : video_file, coding,
+                      worker, picture ? std::optional<int>(picture->frame) : std::nullopt);
     if (ClipPictures::has_layers(plan)) job.view.background.transparent = true;
     if (plan.sound) {
         job.video.sound = sound_of(*plan.sound);
         job.video.sound_offset_samples = plan.sound->offset_samples;
     }
-    media::VideoWriter video(video_file, job.video);
-    ClipPictures pictures(plan, video);
-    ShownClip shown = show_clip(plan, job, unmatched, worker, pictures);
+    std::optional<media::VideoWriter> video;
+    if (!picture) video.emplace(video_file, job.video);
+    ClipPictures pictures(plan, [&](const Image& image) {
+        if (video)
+            video->append(image);
+        else
+            media::write_png(image, video_file);
+    });
+    ShownClip shown = show_clip(plan, job, unmatched, picture, worker, pictures);
 
     // All files appear together, or none.
-    video.finish();
-    const std::string table = events_table(shown.rows, shown.order, pictures.measures(), plan);
+    if (video) video->finish();
+    const std::string table =
+        events_table(shown.rows, shown.order, shown.first_source, pictures.measures(), plan);
     write_file(written[files.events], table);
     write_file(written[files.columns], frame_columns(table, plan));
     media::write_png(pictures.strip(), written[files.strip]);

@@ -3,6 +3,7 @@
 /// One clip of a stimulus set: it is rendered, changed as its control requires, and written with its ground truth.
 ///
 ///   stimuli/stim-NAME_video.mp4                  the pictures; with a recording it is stim-NAME_audiovideo.mp4
+///   stimuli/stim-NAME_image.png                  in a set of pictures: the picture in place of a video
 ///   stimuli/stim-NAME_audio.wav                  the recording alone, with the loudness and duration that it has in the clip
 ///   stimuli/stim-NAME_annot-frames_events.tsv    a row for each frame as shown: onset and duration in s, source_frame, and the
 ///                                                columns of frame_table.h
@@ -56,7 +57,8 @@ struct ClipPlan {
     /// In place of the tone when histograms or spectra are matched
     std::shared_ptr<const MappedLuminance> mapped;
     std::optional<ClipSound> sound;
-    int frames = 0, fps = 0, width_px = 0, height_px = 0;
+    int frames = 0, fps = 0, width_px = 0, height_px = 0;  ///< a picture has one frame
+    int script_frames = 0;                                 ///< frames that the script lasts
     /// Frames at the beginning that show the first one, because a recording of the set begins before the script; part of `frames`
     int lead_frames = 0;
     std::array<std::uint8_t, 3> background{};  ///< sRGB of the displayed background
@@ -69,6 +71,7 @@ struct ClipPlan {
     bool render_is_shared = false;     ///< whether controls of the clip use the same render
     std::size_t condition_number = 0;  ///< index of the clip's condition among all conditions
     std::string shown_sha256() const;  ///< of what a participant sees and hears, before matching
+    double duration_s() const;         ///< how long it is shown
     double seconds() const;            ///< estimated time to make it on two cores
     double megabytes() const;          ///< estimated
     bool has_aois() const;  ///< whether areas of interest are asked for, and it shows them
@@ -96,6 +99,8 @@ struct ClipFiles {
     std::vector<std::filesystem::path> listed() const;
 };
 ClipFiles clip_files(const ClipPlan& plan);
+/// Returns the suffix that BIDS has for the clip's file: video, audiovideo or image.
+const char* clip_type(const ClipPlan& plan);
 
 /// Keeps, for all workers, how far a face moves when an expression is settled at full intensity.
 class SettledMotions {
@@ -119,9 +124,11 @@ struct ClipWorker {
     const ProgressMonitor& monitor;
 };
 
-/// Returns the job that renders a clip's script into the file `out`. The script is that of the plan, in memory.
+/// Returns the job that renders a clip's script into the file `out`. The script is that of the plan, in memory. `frame`: the only
+/// frame to render; default: all frames.
 animate::RenderJob render_job_of(const ClipPlan& plan, const std::filesystem::path& out,
-                                 const media::VideoOptions& coding, const ClipWorker& worker);
+                                 const media::VideoOptions& coding, const ClipWorker& worker,
+                                 std::optional<int> frame = {});
 /// Returns the record of a run without the parts that differ between runs or between folders.
 Json portable_record(const animate::RunRecord& record);
 std::string text_of_file(const std::filesystem::path& file);

@@ -21,6 +21,7 @@ using design::ControlKind;
 namespace {
 
 constexpr int kThumb_px = 120;
+constexpr int kStripFrames = 5;
 constexpr int kPhotodiode_px = 64;
 constexpr unsigned kNextFrame = 0x9E3779B9;
 constexpr double kLeastPxPerCycle = 4;  // an octave below half the sampling rate
@@ -91,6 +92,8 @@ bool is_of_landmark(const std::string& column) {
 
 }  // namespace
 
+int strip_frames(const ClipPlan& plan) { return plan.clips.pictures() ? 1 : kStripFrames; }
+
 int strip_frame(int index, int frames) { return (2 * index + 1) * frames / (2 * kStripFrames); }
 
 double width_of_face(const animate::FrameRows& rows, const std::string& place) {
@@ -138,10 +141,10 @@ bool shows_one_picture(design::ControlKind kind) {
     return kind == design::ControlKind::kApex || kind == design::ControlKind::kNeutral;
 }
 
-ClipPictures::ClipPictures(const ClipPlan& plan, media::VideoWriter& video)
+ClipPictures::ClipPictures(const ClipPlan& plan, std::function<void(const Image&)> show)
     : plan_(plan),
       kind_(plan.condition.control.kind),
-      video_(video),
+      show_(std::move(show)),
       later_(needs_all_frames(plan)),
       measured_(plan.tone || plan.mapped || plan.lead_frames > 0 ||
                 plan.condition.control.shows_otherwise()),
@@ -166,8 +169,9 @@ void ClipPictures::finish(const std::vector<int>& order) {
 
 Image ClipPictures::strip() const {
     const Image& first = thumbs_.front();
-    Image out(kStripFrames * first.width_px, first.height_px);
-    for (int i = 0; i < kStripFrames; ++i) {
+    const int shown_frames = strip_frames(plan_);
+    Image out(shown_frames * first.width_px, first.height_px);
+    for (int i = 0; i < shown_frames; ++i) {
         const auto at = static_cast<std::size_t>(strip_frame(i, static_cast<int>(thumbs_.size())));
         for (int y = 0; y < first.height_px; ++y)
             std::copy_n(thumbs_[at].pixel(0, y), 4 * first.width_px,
@@ -315,11 +319,11 @@ void ClipPictures::write(Image image, int frame) {
                                image);
     ++written_;
     hash_.add(image.rgba.data(), image.rgba.size());
-    video_.append(image);
+    show_(image);
 }
 
 std::string events_table(const animate::FrameRows& source, const std::vector<int>& order,
-                         const std::vector<media::PictureMeasures>& measures,
+                         int first_source, const std::vector<media::PictureMeasures>& measures,
                          const ClipPlan& plan) {
     const ControlKind kind = plan.condition.control.kind;
     const animate::FrameRows rows =
@@ -333,11 +337,12 @@ std::string events_table(const animate::FrameRows& source, const std::vector<int
     if (plan.clips.photodiode) out += "\tphotodiode";
     out += "\n";
     const bool turned = kind == ControlKind::kUpsideDown;
+    const double frame_s = plan.clips.pictures() ? plan.duration_s() : 1.0 / plan.fps;
     for (std::size_t i = 0; i < order.size(); ++i) {
         const auto& cells = rows.cells[static_cast<std::size_t>(order[i])];
         out += decimal_text(static_cast<double>(i) / plan.fps, 6) + "\t" +
-               decimal_text(1.0 / plan.fps, 6) + "\t" + std::to_string(i) + "\t" +
-               std::to_string(order[i]);
+               decimal_text(frame_s, 6) + "\t" + std::to_string(i) + "\t" +
+               std::to_string(first_source + order[i]);
         for (const std::size_t c : columns) {
             const std::string& name = rows.names[c];
             const auto ends = [&](const char* end) {

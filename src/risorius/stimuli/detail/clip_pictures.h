@@ -3,6 +3,7 @@
 /// Turns rendered pictures into those of a clip: matches luminance, applies the control, measures and marks.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -13,7 +14,6 @@
 #include "risorius/media/mondrian.h"
 #include "risorius/media/phase_scramble.h"
 #include "risorius/media/tone.h"
-#include "risorius/media/video_writer.h"
 #include "risorius/stimuli/detail/clip.h"
 #include "risorius/stimuli/detail/luminance_maps.h"
 #include "risorius/stimuli/detail/point_lights.h"
@@ -30,8 +30,8 @@ bool shows_one_picture(design::ControlKind kind);
 /// Returns whether all frames are needed before the first one is written.
 bool needs_all_frames(const ClipPlan& plan);
 
-/// The frames of a clip that its strip shows.
-inline constexpr int kStripFrames = 5;
+/// The frames of a clip that its strip shows: five, or the only one of a picture.
+int strip_frames(const ClipPlan& plan);
 int strip_frame(int index, int frames);
 
 /// Returns the distance of the landmarks zy_l and zy_r in the first frame, px. Throws Error naming `place` when there are none.
@@ -46,7 +46,8 @@ struct Window {
 /// Processes the pictures of one clip.
 class ClipPictures {
   public:
-    ClipPictures(const ClipPlan& plan, media::VideoWriter& video);
+    /// `show` gets the pictures as they are shown, in order.
+    ClipPictures(const ClipPlan& plan, std::function<void(const Image&)> show);
 
     /// Returns whether the pictures come with a transparent background: they are then put over that of the script.
     static bool has_layers(const ClipPlan& plan);
@@ -88,7 +89,7 @@ class ClipPictures {
     const ClipPlan& plan_;
     design::ControlKind kind_;
     std::optional<media::ToneCurve> tone_;
-    media::VideoWriter& video_;
+    std::function<void(const Image&)> show_;
     bool later_, measured_, layered_;
     const animate::FrameRows* rows_ = nullptr;
     std::optional<Window> window_;
@@ -109,8 +110,10 @@ class ClipPictures {
     Sha256 hash_;
 };
 
-/// Returns the table of the clip, with one row per frame of the clip.
+/// Returns the table of the clip, with one row per frame of the clip. `first_source`: the frame of the script in the first row of
+/// `rows`.
 std::string events_table(const animate::FrameRows& rows, const std::vector<int>& order,
-                         const std::vector<media::PictureMeasures>& measures, const ClipPlan& plan);
+                         int first_source, const std::vector<media::PictureMeasures>& measures,
+                         const ClipPlan& plan);
 
 }  // namespace risorius::stimuli

@@ -24,8 +24,8 @@ using design::ControlKind;
 namespace {
 
 // Estimates for two cores: seconds per clip, per frame and per pixel, and bytes per pixel
-constexpr double kClip_s = 0.1, kFrame_s = 0.04, kPixel_s = 1e-7, kByte_px = 0.03,
-                 kLosslessByte_px = 1.2;
+constexpr double kClip_s = 0.1, kFrame_s = 0.04, kPlayedFrame_s = 0.015, kPixel_s = 1e-7,
+                 kByte_px = 0.03, kLosslessByte_px = 1.2;
 constexpr int kOneKeyframe_s = 10;        // shorter clips have only one key frame
 constexpr double kRounding = 1e-9;        // of a number of frames
 constexpr double kMaxHeld_bytes = 0.6e9;  // limit for frames that are kept in memory
@@ -46,14 +46,19 @@ std::optional<int> keyframe_interval(const ClipPlan& plan) {
     return plan.clips.keyframe_interval.value_or(std::min(plan.frames, kOneKeyframe_s * plan.fps));
 }
 
+double ClipPlan::duration_s() const {
+    return clips.pictures() ? clips.shown_s : static_cast<double>(frames) / fps;
+}
+
 double ClipPlan::seconds() const {
-    return kClip_s + frames * (kFrame_s + kPixel_s * width_px * height_px);
+    const double played = clips.pictures() ? kPlayedFrame_s * script_frames : 0;
+    return kClip_s + played + frames * (kFrame_s + kPixel_s * width_px * height_px);
 }
 double ClipPlan::megabytes() const {
     const double unmatched = luminance ? kLosslessByte_px : 0;
-    return 1e-6 * frames *
-           (unmatched + (clips.lossless || clips.ending == "mkv" ? kLosslessByte_px : kByte_px)) *
-           width_px * height_px;
+    const bool without_loss = clips.lossless || clips.ending == "mkv" || clips.pictures();
+    return 1e-6 * frames * (unmatched + (without_loss ? kLosslessByte_px : kByte_px)) * width_px *
+           height_px;
 }
 
 bool ClipPlan::has_aois() const {
@@ -82,7 +87,7 @@ namespace {
 bool moves_the_head(const track::ScriptDescription& script, const track::ChannelTable& channels,
                     const ClipPlan& plan) {
     const track::Timeline timeline(script, channels);
-    for (int frame = 0; frame < plan.frames; ++frame) {
+    for (int frame = 0; frame < plan.script_frames; ++frame) {
         const track::Drive drive = timeline.at(static_cast<double>(frame) / plan.fps);
         for (int k = static_cast<int>(track::Kinematic::kHeadYaw);
              k <= static_cast<int>(track::Kinematic::kHeadSide); ++k)
@@ -110,6 +115,13 @@ std::string sha256_of_rig(const animate::RigInput& rig) {
 void check_control(const ClipPlan& plan, const track::ScriptDescription& script,
                    const track::ChannelTable& channels, const std::string& place) {
     const design::ControlKind kind = plan.condition.control.kind;
+    if (plan.clips.pictures() && shows_other_order(kind))
+        throw Error(place, "a control that a picture can show", plan.condition.control.name());
+    if (plan.clips.pictures() && plan.condition.audio)
+        throw Error(place, "no audio in a set of pictures", *plan.condition.audio);
+    if (plan.clips.still_s.value_or(0) * plan.fps > plan.script_frames - 1 + kRounding)
+        throw Error(place, "a script that lasts until clips/still_s",
+                    format_number(static_cast<double>(plan.script_frames) / plan.fps) + " s");
     if (needs_all_frames(plan) &&
         4.0 * plan.frames * plan.width_px * plan.height_px > kMaxHeld_bytes)
         throw Error(place,
@@ -142,6 +154,8 @@ std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256
          {"layers", plan.luminance.has_value()},
          {"flipped", condition.control.kind == design::ControlKind::kFlipped},
          {"within", plan.luminance && plan.luminance->within_face ? "face" : "picture"}});
+    if (plan.clips.pictures())
+        rendered["picture"] = plan.clips.still_s ? Json(*plan.clips.still_s) : Json("apex");
     for (const Json::json_pointer& key : file_keys(condition.script)) {
         rendered["script"][key] = "";
         const fs::path file = condition.script.at(key).get<std::string>();
@@ -178,6 +192,7 @@ std::string content_sha256_of(const ClipPlan& plan) {
         content["aois"] = json_object({{"names", clips.aois}, {"margin", clips.aoi_margin}});
     if (plan.luminance && plan.luminance->grey) content["grey"] = true;
     if (plan.lead_frames > 0) content["lead_frames"] = plan.lead_frames;
+    if (plan.clips.pictures()) content["shown_s"] = plan.clips.shown_s;
     if (plan.sound)
         content["sound"] = json_object({{"file", plan.sound->sha256},
                                         {"offset_samples", plan.sound->offset_samples},
@@ -204,7 +219,8 @@ ClipPlan plan_clip(const design::Condition& condition, double lead_s, const desi
         track::read_script(json, channels, rig.facs, rig.expressions);
     plan.fps = header.fps;
     plan.lead_frames = static_cast<int>(std::ceil(lead_s * plan.fps - kRounding));
-    plan.frames = plan.lead_frames + header.frame_count();
+    plan.script_frames = header.frame_count();
+    plan.frames = clips.pictures() ? 1 : plan.lead_frames + plan.script_frames;
     plan.width_px = header.view.width_px;
     plan.height_px = header.view.height_px;
     plan.transparent = header.view.transparent;
@@ -213,12 +229,13 @@ ClipPlan plan_clip(const design::Condition& condition, double lead_s, const desi
             static_cast<std::uint8_t>(std::lround(255 * header.view.background_rgb[k]));
     check_control(plan, script, channels, json.place());
     if (clips.photodiode) media::corner_named(*clips.photodiode, "clips/photodiode");
-    media::check_target("clips." + clips.ending, {.width_px = plan.width_px,
-                                                  .height_px = plan.height_px,
-                                                  .fps = plan.fps,
-                                                  .crf = clips.crf,
-                                                  .keyframe_interval = clips.keyframe_interval,
-                                                  .lossless = clips.lossless});
+    if (!clips.pictures())
+        media::check_target("clips." + clips.ending, {.width_px = plan.width_px,
+                                                      .height_px = plan.height_px,
+                                                      .fps = plan.fps,
+                                                      .crf = clips.crf,
+                                                      .keyframe_interval = clips.keyframe_interval,
+                                                      .lossless = clips.lossless});
     design::Condition heard = condition;
     heard.audio_start_s += static_cast<double>(plan.lead_frames) / plan.fps;
     if (condition.audio)

@@ -92,6 +92,7 @@ std::vector<Json> condition_rows(const BatchPlan& plan, const std::vector<Json>&
              {"audio_file",
               clip.sound ? "../stimuli/stim-" + clip.condition.clip + "_audio.wav" : std::string()},
              {"correct_key", correct_key(*plan.experiment, clip.condition)}});
+        if (clip.clips.pictures()) row["shown_s"] = clip.clips.shown_s;
         for (const std::string& name : names) {
             const auto value =
                 std::find_if(clip.condition.values.begin(), clip.condition.values.end(),
@@ -145,10 +146,10 @@ void check_experiment(BatchPlan& plan) {
             any_correct = true;
         else if (experiment.correct && !clip.is_control())
             without.push_back(clip.condition.clip);
-        if (clip.clips.ending != "mp4" && clip.clips.ending != "webm" &&
+        if (clip.clips.ending != "mp4" && clip.clips.ending != "webm" && !clip.clips.pictures() &&
             std::find(experiment.programs.begin(), experiment.programs.end(), "jspsych") !=
                 experiment.programs.end())
-            throw Error("clips/ending", "mp4 or webm, which browsers play, for jspsych",
+            throw Error("clips/ending", "mp4, webm or png, which browsers show, for jspsych",
                         clip.clips.ending);
     }
     check_backgrounds(plan);

@@ -130,6 +130,7 @@ function answerOf(data, key, clip) {
 }
 function shown(which, repeated) {
     let clip = null, begun = null, loaded = 0, seen = 0;
+    if (conditions[0].shown_s !== undefined) return picture(which, repeated);
     return {
         type: jsPsychVideoKeyboardResponse, stimulus: () => [settings.clips + which().stim_file],
         choices: settings.answer_during ? keys : 'NO_KEYS', response_allowed_while_playing: true,
@@ -165,6 +166,37 @@ function shown(which, repeated) {
         },
     };
 }
+// A picture stays for its time; the first refresh of the screen after it was put there is its beginning.
+function picture(which, repeated) {
+    let clip = null, begun = null, loaded = 0;
+    return {
+        type: jsPsychHtmlKeyboardResponse, stimulus: () => `<img src="${escaped(settings.clips + which().stim_file)}" alt="">`,
+        choices: settings.answer_during ? keys : 'NO_KEYS', response_ends_trial: false,
+        trial_duration: () => 1000 * which().shown_s, data: () => ({...which(), task: 'clip', repeated}),
+        on_start: () => {
+            clip = which();
+            begun = null;
+            during = null;
+        },
+        on_load: () => {
+            loaded = performance.now();
+            requestAnimationFrame((now) => {
+                begun = now;
+            });
+        },
+        on_finish: (data) => {
+            data.first_frame_ms = begun;
+            data.frames_seen = 1;
+            data.flag = document.hidden || begun === null ? 'frames_missing' : '';
+            if (data.flag && !repeated) missed.push(clip);
+            during = settings.answer_during ? data.response : null;
+            if (during) {
+                answerOf(data, during, clip);
+                if (begun !== null && data.rt !== null) data.rt_from_first_frame = data.rt - (begun - loaded);
+            }
+        },
+    };
+}
 function answered(which, repeated) {
     return {timeline: [{
         type: jsPsychHtmlKeyboardResponse, stimulus: `<p>${escaped(settings.question)}</p><p>${said}</p>`,
@@ -175,7 +207,9 @@ function answered(which, repeated) {
 
 const clips = jsPsych.randomization.repeat(conditions, settings.repetitions);
 const files = [...new Set(conditions.map((clip) => settings.clips + clip.stim_file))];
-const timeline = [{type: jsPsychPreload, video: location.protocol === 'file:' ? [] : files}, wait];
+const local = location.protocol === 'file:';
+const preload = conditions[0].shown_s !== undefined ? {images: files} : {video: local ? [] : files};
+const timeline = [{type: jsPsychPreload, ...preload}, wait];
 for (const clip of clips) timeline.push(fixation, shown(() => clip, false), answered(() => clip, false));
 let current = null;
 const next = () => {

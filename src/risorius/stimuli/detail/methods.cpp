@@ -73,27 +73,39 @@ std::string clips_text(const BatchPlan& plan) {
         heads.insert(clip.condition.script.value("rig", ""));
         sizes.insert(std::to_string(clip.width_px) + " x " + std::to_string(clip.height_px));
         rates.insert(clip.fps);
-        seconds.push_back(static_cast<double>(clip.frames) / clip.fps);
+        seconds.push_back(clip.duration_s());
     }
     std::vector<std::string> rate_words;
     for (const int rate : rates) rate_words.push_back(std::to_string(rate));
     const ClipPlan& first = plan.clips.front();
-    std::string out =
-        "The stimuli were " + counted(plan.clips.size(), "video clip", "video clips") + " (" +
-        counted(conditions, "condition", "conditions") + ", " +
-        counted(plan.clips.size() - conditions, "control", "controls") + ") of " +
-        counted(heads.size(), "synthetic head", "synthetic heads") +
-        " [sex and age of the heads]. No person is shown. The faces were simulated "
-        "and rendered by Risorius " +
-        std::string(kVersion) + " (compiled with " + __VERSION__ +
-        "): muscles move a soft skin over a skull in steps of 1/60 s. The clips had " +
-        joined({sizes.begin(), sizes.end()}) + " pixels at " + joined(rate_words) +
-        " frames per second, lasted " + range_of(seconds, 3) + " s, and were stored as " +
-        first.clips.ending +
-        (first.clips.lossless || first.clips.ending == "mkv" ? " without loss" : "") +
-        (first.clips.crf ? " with a constant rate factor of " + std::to_string(*first.clips.crf)
-                         : "") +
-        ". The same design gives the same bytes.\n";
+    const bool pictures = first.clips.pictures();
+    std::string out = "The stimuli were " +
+                      (pictures ? counted(plan.clips.size(), "picture", "pictures")
+                                : counted(plan.clips.size(), "video clip", "video clips")) +
+                      " (" + counted(conditions, "condition", "conditions") + ", " +
+                      counted(plan.clips.size() - conditions, "control", "controls") + ") of " +
+                      counted(heads.size(), "synthetic head", "synthetic heads") +
+                      " [sex and age of the heads]. No person is shown. The faces were simulated "
+                      "and rendered by Risorius " +
+                      std::string(kVersion) + " (compiled with " + __VERSION__ +
+                      "): muscles move a soft skin over a skull in steps of 1/60 s. ";
+    const std::string size = joined({sizes.begin(), sizes.end()}) + " pixels";
+    if (pictures)
+        out += "The pictures had " + size +
+               ", were stored as png without loss, and show the face " +
+               (first.clips.still_s ? format_number(*first.clips.still_s) + " s after the start"
+                                    : std::string("at the apex")) +
+               " of a simulated movement. An experiment shows each for " + range_of(seconds, 3) +
+               " s.";
+    else
+        out +=
+            "The clips had " + size + " at " + joined(rate_words) + " frames per second, lasted " +
+            range_of(seconds, 3) + " s, and were stored as " + first.clips.ending +
+            (first.clips.lossless || first.clips.ending == "mkv" ? " without loss" : "") +
+            (first.clips.crf ? " with a constant rate factor of " + std::to_string(*first.clips.crf)
+                             : "") +
+            ".";
+    out += " The same design gives the same bytes.\n";
     return out;
 }
 
@@ -289,9 +301,10 @@ std::string hed_tags(const ClipPlan& plan) {
     const design::Control& control = plan.condition.control;
     std::string out = "Sensory-event, Experimental-stimulus, Visual-presentation, ";
     if (plan.sound) out += "Auditory-presentation, ";
-    const std::string clip = plan.sound ? "Audiovisual-clip" : "Video-clip";
+    const bool picture = plan.clips.pictures();
+    const std::string clip = picture ? "Image" : plan.sound ? "Audiovisual-clip" : "Video-clip";
     if (control.kind == ControlKind::kMondrian || control.kind == ControlKind::kPhaseScrambled)
-        return out + "(" + clip + ", Animation)";
+        return out + (picture ? clip : "(" + clip + ", Animation)");
     std::string face = "Face";
     if (control.kind == ControlKind::kNeutral) {
         face += ", Emotionally-neutral";
@@ -304,7 +317,7 @@ std::string hed_tags(const ClipPlan& plan) {
             }
         for (const std::string& tag : tags) face += ", " + tag;
     }
-    return out + "(" + clip + ", (Animation, (" + face + ")))";
+    return out + "(" + clip + (picture ? ", (" + face + "))" : ", (Animation, (" + face + ")))");
 }
 
 }  // namespace risorius::stimuli

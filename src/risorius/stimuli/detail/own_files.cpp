@@ -105,7 +105,8 @@ std::string text_at(const Json& json, const char* key) {
 std::string clip_of(const Json& record, const std::string& file_name) {
     const std::string clip = text_at(record, "stim_id");
     const bool named = file_name == "stim-" + clip + "_video.json" ||
-                       file_name == "stim-" + clip + "_audiovideo.json";
+                       file_name == "stim-" + clip + "_audiovideo.json" ||
+                       file_name == "stim-" + clip + "_image.json";
     return text_at(record, "format") == "risorius-clip" && named ? clip : "";
 }
 

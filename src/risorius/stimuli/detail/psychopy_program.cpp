@@ -12,7 +12,7 @@ const char* const kProgram = R"py(#!/usr/bin/env python3
     python experiment.py --participant 7
 
 Every clip is decoded before its fixation cross is shown, and its frames are flipped one by one, each for a whole number of
-refreshes of the screen, so that no player decides when a frame is seen. ../triggers.tsv says which codes go out with which
+refreshes of the screen, so that no player decides when a frame is seen. A picture is a clip of one frame. ../triggers.tsv says which codes go out with which
 frame. A code stays on the line for whole refreshes, pulse_ms of settings.json at least, and is then taken off. A square in
 the lower left corner is white exactly while a code is on the line, and black at all other times, for a photodiode.
 
@@ -108,6 +108,8 @@ def read_codes():
 
 def load_frames(window, clip):
     """All pictures of a clip as textures; fails when they are not as many as the conditions say."""
+    if clip["file"].endswith(".png"):
+        return [visual.ImageStim(window, image=Image.open(clip["file"]), units="pix", interpolate=False)]
     with imageio.get_reader(clip["file"], "ffmpeg") as reader:
         frames = [
             visual.ImageStim(window, image=Image.fromarray(frame), units="pix", interpolate=False) for frame in reader
@@ -127,12 +129,18 @@ def load_sound(clip):
 
 def refreshes_of(clip, rate_hz):
     """How many refreshes of the screen every frame lasts."""
+    if "shown_s" in clip:
+        return max(1, round(rate_hz * float(clip["shown_s"])))
     count = round(rate_hz / clip["fps"])
     if count < 1 or abs(count * clip["fps"] / rate_hz - 1) > 0.02:
         raise RuntimeError(
             f"{clip['stim_id']}: {clip['fps']} frames per second do not divide the screen's {rate_hz:.1f} Hz"
         )
     return count
+
+
+def duration_s(clip):
+    return float(clip["shown_s"]) if "shown_s" in clip else clip["frames"] / clip["fps"]
 
 
 def show(screen, frames, codes, refreshes, heard, began, keys):
@@ -312,7 +320,7 @@ def main():
         answers.add(
             {**row, "participant": options.participant, "trial": number, **added},
             {
-                "onset": added["onset_s"], "duration": f"{clip['frames'] / clip['fps']:.4f}", "trial_type": kind,
+                "onset": added["onset_s"], "duration": f"{duration_s(clip):.4f}", "trial_type": kind,
                 "response_time": added["response_time"], "stimulus_id": f"stim-{clip['stim_id']}", "trial": number,
                 "answer": added["answer"], "correct": added["correct"], "dropped": added["dropped_refreshes"],
             },

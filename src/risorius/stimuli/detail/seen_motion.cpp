@@ -193,6 +193,28 @@ SeenMotion seen_motion(const animate::FrameRows& rows,
     return out;
 }
 
+SeenPicture seen_picture(const animate::LandmarkFrames& frames,
+                         const std::optional<animate::LandmarkFrames>& twin,
+                         std::optional<int> frame) {
+    const std::vector<Points> q = without_head(frames, 0);
+    std::vector<Points> q_twin;
+    if (twin) q_twin = without_head(*twin, 0);
+    std::vector<Way> ways;
+    for (std::size_t now = 0; now < q.size(); ++now)
+        ways.push_back(way_between(frames.ids, q[0], q[now], twin ? &q_twin[0] : nullptr,
+                                   twin ? &q_twin[now] : nullptr));
+    if (!frame) {
+        double most = 0;
+        for (const Way& way : ways) most = std::max(most, way.mm);
+        const auto apex = std::find_if(ways.begin(), ways.end(), [&](const Way& way) {
+            return most < kNoMovement_mm || way.mm >= kApexFraction * most;
+        });
+        frame = static_cast<int>(apex - ways.begin());
+    }
+    const Way& shown = ways[static_cast<std::size_t>(*frame)];
+    return {*frame, shown.mm, shown.landmark};
+}
+
 double largest_way_mm(const animate::LandmarkFrames& frames) {
     const std::vector<Points> q = without_head(frames, 0);
     return way_between(frames.ids, q[0], q[1], nullptr, nullptr).mm;

@@ -40,6 +40,19 @@ SeenMotion seen_motion(const animate::FrameRows& rows,
                        const std::optional<animate::LandmarkFrames>& twin,
                        const std::vector<int>& order, int fps);
 
+/// What a picture shows of a movement.
+struct SeenPicture {
+    int frame = 0;         ///< of the script
+    double seen_mm = 0;    ///< s in this frame, mm; 0 is the first frame of the script
+    std::string landmark;  ///< whose it is; empty when nothing moves
+};
+
+/// Chooses the frame of a picture: the given one, or the first with 99 % of the maximum of s; the first frame when nothing moves.
+/// `twin` as above.
+SeenPicture seen_picture(const animate::LandmarkFrames& frames,
+                         const std::optional<animate::LandmarkFrames>& twin,
+                         std::optional<int> frame);
+
 /// Returns s of the second of two frames, mm.
 double largest_way_mm(const animate::LandmarkFrames& frames);
 

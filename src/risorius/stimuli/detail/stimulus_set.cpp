@@ -75,11 +75,12 @@ constexpr const char* kAoiAnnotation =
 
 std::string overview(const std::string& name, const std::vector<Json>& records,
                      const std::vector<ClipPlan>& clips, const fs::path& folder) {
+    const bool pictures = clips.front().clips.pictures();
     report::HtmlWriter html;
     html.element("h1", name);
     html.element("p",
-                 std::to_string(records.size()) +
-                     " clips. Faces are synthetic. Values, frames and times: "
+                 std::to_string(records.size()) + (pictures ? " pictures" : " clips") +
+                     ". Faces are synthetic. Values, frames and times: "
                      "stimuli/stimuli.tsv; triggers: triggers.tsv; ground truth of every frame "
                      "beside each clip.");
     if (clips.front().luminance) {
@@ -99,16 +100,18 @@ std::string overview(const std::string& name, const std::vector<Json>& records,
         const ClipFiles files = clip_files(clips[i]);
         html.open("a", {{"href", files.video.generic_string()},
                         {"style", "position: relative; display: inline-block"}});
-        html.single("img", {{"src", files.strip.generic_string()},
-                            {"loading", "lazy"},
-                            {"alt", "Five frames of " + clips[i].condition.clip}});
+        html.single("img",
+                    {{"src", files.strip.generic_string()},
+                     {"loading", "lazy"},
+                     {"alt", (pictures ? "" : "Five frames of ") + clips[i].condition.clip}});
         if (clips[i].has_aois()) draw_aois(text_of_file(folder / files.aois), clips[i], html);
         html.close();
         std::string said = clips[i].condition.clip + ": ";
         for (const auto& [key, value] : one.at("values").items())
             if (key != "set") said += key + " " + catalogue_cell(value) + ", ";
-        said += std::to_string(one.at("frames").get<int>()) + " frames at " +
-                catalogue_cell(one.at("fps")) + " fps";
+        said += pictures ? "a picture"
+                         : std::to_string(one.at("frames").get<int>()) + " frames at " +
+                               catalogue_cell(one.at("fps")) + " fps";
         html.element("figcaption", said);
         html.close();
     }

@@ -67,6 +67,11 @@ std::string triggers(const std::vector<Json>& records, const CodesOfClips& codes
     std::string out = "stim_id\tevent\tcode\tframe\ttime_s\tmerged_into\n";
     for (const Json& one : records) {
         const double fps = one.at("fps").get<double>();
+        const int frames = one.at("frames").get<int>();
+        // A picture is one frame that is shown for longer.
+        const auto time_s = [&](int frame) {
+            return frame == frames ? one.at("duration_s").get<double>() : frame / fps;
+        };
         std::map<int, std::string> taken;
         const auto row = [&](const char* event, int code, const Json& at) {
             if (at.is_null()) return;
@@ -74,7 +79,7 @@ std::string triggers(const std::vector<Json>& records, const CodesOfClips& codes
             const auto [first, is_new] = taken.emplace(frame, event);
             out += one.at("stim_id").get<std::string>() + "\t" + event + "\t" +
                    std::to_string(code) + "\t" + std::to_string(frame) + "\t" +
-                   format_number(frame / fps) + "\t" + (is_new ? kMissingCell : first->second) +
+                   format_number(time_s(frame)) + "\t" + (is_new ? kMissingCell : first->second) +
                    "\n";
         };
         const auto own = codes.code_of.find(one.at("stim_id").get<std::string>());
@@ -82,7 +87,7 @@ std::string triggers(const std::vector<Json>& records, const CodesOfClips& codes
         if (one.contains("audio") && !one.at("audio").value("onset_s", Json()).is_null())
             if (const int frame = static_cast<int>(
                     std::lround(one.at("audio").at("onset_s").get<double>() * fps));
-                frame >= 0 && frame < one.at("frames").get<int>())
+                frame >= 0 && frame < frames)
                 row("sound_onset", 5, frame);
         row("movement_onset", 2, one.at("movement_onset_frame"));
         row("apex", 3, one.at("apex_frame"));

@@ -13,6 +13,7 @@
 #include "risorius/core/sha256.h"
 #include "risorius/media/video_reader.h"
 #include "risorius/scene/face_oval.h"
+#include "risorius/stimuli/detail/picture_frame.h"
 
 namespace risorius::stimuli {
 
@@ -46,6 +47,7 @@ std::optional<UnmatchedRender> complete_render(const ClipPlan& plan, const std::
         render.table = text_of_file(table);
         render.luminance = sums_of(record.at("luminance"));
         render.colours = record.at("colours");
+        if (plan.clips.pictures()) render.picture = picture_of(record.at("picture"));
         return render;
     } catch (const std::exception&) {
         return {};  // another or an incomplete file: the clip is rendered again
@@ -107,7 +109,10 @@ void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker) {
                    video_file = outputs.file(folder / intermediate_file(clip, ".mkv")),
                    table_file = outputs.file(folder / intermediate_file(clip, ".tsv"));
 
-    animate::RenderJob job = render_job_of(plan, video_file, {}, worker);
+    std::optional<SeenPicture> picture;
+    if (plan.clips.pictures()) picture = picture_frame(plan, worker);
+    animate::RenderJob job = render_job_of(
+        plan, video_file, {}, worker, picture ? std::optional<int>(picture->frame) : std::nullopt);
     job.view.background.transparent = job.video.alpha = true;
     media::VideoWriter video(video_file, job.video);
     const animate::RenderResult result = animate::run_render_job(
@@ -126,14 +131,14 @@ void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker) {
         measured.sums.add(picture, weights);
         measured.colours.add(picture, weights);
     }
-    write_file(record_file, json_text(json_object({{"film_sha256", plan.render_sha256},
-                                                   {"video_sha256", sha256_of_file(video_file)},
-                                                   {"table_sha256", sha256_of_file(table_file)},
-                                                   {"luminance", json_of(measured.sums)},
-                                                   {"colours", measured.colours.text()},
-                                                   {"run", portable_record(result.record)}}),
-                                      1) +
-                                "\n");
+    Json record = json_object({{"film_sha256", plan.render_sha256},
+                               {"video_sha256", sha256_of_file(video_file)},
+                               {"table_sha256", sha256_of_file(table_file)},
+                               {"luminance", json_of(measured.sums)},
+                               {"colours", measured.colours.text()},
+                               {"run", portable_record(result.record)}});
+    if (picture) record["picture"] = json_of(*picture);
+    write_file(record_file, json_text(record, 1) + "\n");
     worker.monitor.throw_if_stopped();
     outputs.commit();
 }

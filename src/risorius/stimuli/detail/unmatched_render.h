@@ -19,6 +19,7 @@
 #include "risorius/core/image.h"
 #include "risorius/media/tone.h"
 #include "risorius/stimuli/detail/clip.h"
+#include "risorius/stimuli/detail/seen_motion.h"
 
 namespace risorius::stimuli {
 
@@ -27,10 +28,11 @@ inline constexpr const char* kIntermediateFolders[] = {"intermediate", "takes"};
 
 struct UnmatchedRender {
     std::filesystem::path video;
-    Json run;                        ///< how it was made; see portable_record()
-    std::string table;               ///< the text of frame_table.h
-    media::LuminanceSums luminance;  ///< within the measured part of the picture
-    std::string colours;             ///< ColourSums::text()
+    Json run;                            ///< how it was made; see portable_record()
+    std::string table;                   ///< the text of frame_table.h
+    media::LuminanceSums luminance;      ///< within the measured part of the picture
+    std::string colours;                 ///< ColourSums::text()
+    std::optional<SeenPicture> picture;  ///< of a set of pictures: the only frame that it has
 };
 
 /// The luminance of a condition before matching.
