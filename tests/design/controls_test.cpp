@@ -31,6 +31,33 @@ TEST(FrameOrder, IsThatOfTheControl) {
     EXPECT_EQ(scrambled, order(ControlKind::kNone));
 }
 
+TEST(RetimedOrder, MakesTheWayFollowTheProfile) {
+    // A minimum-jerk course in a film of 8 times as many frames, from frame 8 to frame 72
+    std::vector<double> way;
+    for (int i = 0; i < 81; ++i) {
+        const double u = std::clamp((i - 8) / 64.0, 0.0, 1.0);
+        way.push_back(10 * (10 * u * u * u - 15 * u * u * u * u + 6 * u * u * u * u * u));
+    }
+    const double largest_step = 10 * 1.875 / 64;
+    for (const Speed speed : {Speed::kConstant, Speed::kAccelerated, Speed::kDecelerated}) {
+        const std::vector<int> order = retimed_order(speed, way, 8, 72, 8, 11);
+        ASSERT_EQ(order.size(), 11u);
+        EXPECT_EQ(order[0], 0);
+        EXPECT_EQ(order[1], 8);
+        EXPECT_EQ(order[9], 72);
+        EXPECT_EQ(order[10], 80);
+        for (int i = 1; i < 10; ++i) {
+            const double t = (i - 1) / 8.0;
+            const double share = speed == Speed::kConstant      ? t
+                                 : speed == Speed::kAccelerated ? t * t
+                                                                : 1 - (1 - t) * (1 - t);
+            EXPECT_NEAR(way[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])],
+                        10 * share, largest_step / 2 + 1e-9)
+                << i;
+        }
+    }
+}
+
 TEST(Arithmetic, IsThatOfSchool) {
     const auto value = [](const std::string& text) {
         return arithmetic(text, "here", [](const std::string& name) -> double {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <sstream>
 
 #include "message_of.h"
@@ -147,6 +148,82 @@ void expect_dots(const SmileSet& set) {
     EXPECT_GE(bright, 5);
     EXPECT_LT(bright, 5 * 16);
     EXPECT_GT(background, 48 * 64 - 5 * 30);
+}
+
+/// How far a landmark has come in each frame, of its farthest way.
+std::vector<double> shares_of(const animate::FrameRows& rows, const std::string& landmark) {
+    std::vector<double> out;
+    for (int frame = 0; frame < rows.rows(); ++frame) {
+        double squares = 0;
+        for (const char* axis : {".x_mm", ".y_mm", ".z_mm"}) {
+            const int at = rows.column(landmark + axis);
+            squares += std::pow(rows.number(frame, at) - rows.number(0, at), 2);
+        }
+        out.push_back(std::sqrt(squares));
+    }
+    const double most = *std::max_element(out.begin(), out.end());
+    for (double& share : out) share /= most;
+    return out;
+}
+
+/// The steps of a rise from 5 to 95 %.
+std::vector<double> steps_of(const std::vector<double>& shares) {
+    std::vector<double> out;
+    for (std::size_t i = 1; i < shares.size() && shares[i] < 0.95; ++i)
+        if (shares[i - 1] > 0.05) out.push_back(shares[i] - shares[i - 1]);
+    return out;
+}
+
+/// The largest step over the mean one.
+double unevenness(const std::vector<double>& steps) {
+    return *std::max_element(steps.begin(), steps.end()) * static_cast<double>(steps.size()) /
+           std::accumulate(steps.begin(), steps.end(), 0.0);
+}
+
+/// The same way with the same onset and apex, and a speed that is the profile's.
+void expect_speeds(const SmileSet& set) {
+    const auto sidecar = [&](const char* clip) {
+        return Json::parse(
+            text_of(set.out / ("stimuli/stim-smile1" + std::string(clip) + "_video.json")));
+    };
+    const Json plain = sidecar("");
+    const std::string landmark = plain.at("motion").at("seen_landmark").get<std::string>();
+    const auto steps = [&](const char* clip) {
+        return steps_of(shares_of(set.table(clip), landmark));
+    };
+    for (const char* clip : {"ConstantSpeed", "AcceleratedSpeed", "DeceleratedSpeed"}) {
+        const Json changed = sidecar(clip);
+        EXPECT_NEAR(changed.at("motion").at("seen_mm").get<double>(),
+                    plain.at("motion").at("seen_mm").get<double>(), 0.05)
+            << clip;
+        EXPECT_LE(std::abs(changed.at("apex_frame").get<int>() - plain.at("apex_frame").get<int>()),
+                  1)
+            << clip;
+        EXPECT_EQ(changed.at("frames"), plain.at("frames"));
+        ASSERT_GE(steps(clip).size(), 3u) << clip;
+    }
+    // A natural movement is fastest in its middle.
+    EXPECT_LT(unevenness(steps("ConstantSpeed")), 1.2);
+    EXPECT_GT(unevenness(steps("")), 1.3);
+    const auto last_over_first = [&](const char* clip) {
+        return steps(clip).back() / steps(clip).front();
+    };
+    EXPECT_GT(last_over_first("AcceleratedSpeed"), 1.5);
+    EXPECT_LT(last_over_first("DeceleratedSpeed"), 1 / 1.5);
+}
+
+TEST_F(ControlClips, ChangeTheSpeedAlone) {
+    Json json = Json::parse(text_of(design("speed.json", {1}, R"([
+        {"control": "speed", "profile": "constant"}, {"control": "speed", "profile": "accelerated"},
+        {"control": "speed", "profile": "decelerated"}])")));
+    json["clips"].erase("photodiode");
+    json["clips"]["quality"] = "draft";
+    json["sets"][0]["script"]["fps"] = 30;
+    std::ofstream(folder().path() / "speed.json") << json.dump();
+    const BatchOptions options{
+        .design = folder().path() / "speed.json", .out = folder().path() / "speed", .workers = 2};
+    EXPECT_EQ(make_batch(options).made, 4);
+    expect_speeds({options.out});
 }
 
 TEST_F(ControlClips, ShowWhatTheySay) {

@@ -16,12 +16,21 @@ namespace risorius::design {
 
 const std::vector<std::string>& control_names() {
     static const std::vector<std::string> kNames{
-        "reversed",  "scrambled",  "apex",      "upside_down", "phase_scrambled",
-        "eyes_only", "mouth_only", "flipped",   "neutral",     "knock_out",
-        "palsy",     "late_side",  "low_pass",  "high_pass",   "oval",
-        "noise",     "mirrored",   "band_pass", "point_light", "mondrian"};
+        "reversed",    "scrambled", "apex",    "upside_down", "phase_scrambled", "eyes_only",
+        "mouth_only",  "flipped",   "neutral", "knock_out",   "palsy",           "late_side",
+        "low_pass",    "high_pass", "oval",    "noise",       "mirrored",        "band_pass",
+        "point_light", "mondrian",  "speed"};
     return kNames;
 }
+
+namespace {
+
+const std::vector<std::string>& speed_names() {
+    static const std::vector<std::string> kNames{"constant", "accelerated", "decelerated"};
+    return kNames;
+}
+
+}  // namespace
 
 bool Control::shows_otherwise() const {
     switch (kind) {
@@ -40,6 +49,7 @@ bool Control::shows_otherwise() const {
         case ControlKind::kBandPass:
         case ControlKind::kPointLight:
         case ControlKind::kMondrian:
+        case ControlKind::kSpeed:
             return true;
         case ControlKind::kNone:
         case ControlKind::kFlipped:
@@ -85,6 +95,8 @@ std::string Control::name() const {
     if (kind == ControlKind::kBandPass)
         return clip_word(plain + "_" + format_number(cycles_per_face) + "_to_" +
                          format_number(upper_cycles_per_face));
+    if (kind == ControlKind::kSpeed)
+        return clip_word(speed_names()[static_cast<std::size_t>(speed)] + "_speed");
     if (kind == ControlKind::kPointLight && scattered) return clip_word(plain + "_scattered");
     if (kind == ControlKind::kNoise)
         return clip_word(plain + (snr_db < 0 ? "_m" : "_") + format_number(std::abs(snr_db)));
@@ -128,11 +140,14 @@ Control read_control(const JsonCursor& json) {
         if (control.kind == ControlKind::kKnockOut)
             json.fail("an object with \"control\" and \"muscle\"");
         if (one_side) json.fail("an object with \"control\" and \"side\"");
+        if (control.kind == ControlKind::kSpeed)
+            json.fail("an object with \"control\" and \"profile\"");
         return control;
     }
     std::vector<std::string_view> keys{"control", "when"};
     if (control.kind == ControlKind::kKnockOut) keys.push_back("muscle");
     if (one_side) keys.push_back("side");
+    if (control.kind == ControlKind::kSpeed) keys.push_back("profile");
     if (control.kind == ControlKind::kPalsy) keys.push_back("weakness");
     if (control.kind == ControlKind::kLateSide) keys.push_back("late_s");
     if (passes) keys.insert(keys.end(), {"cycles_per_face", "order", "contrast"});
@@ -149,6 +164,9 @@ Control read_control(const JsonCursor& json) {
     }
     if (control.kind == ControlKind::kNoise) control.snr_db = json.at("snr_db").number({-40, 40});
     if (control.kind == ControlKind::kKnockOut) control.muscle = json.at("muscle").string();
+    if (control.kind == ControlKind::kSpeed)
+        control.speed = static_cast<Speed>(
+            index_of_name(json.at("profile").place(), json.at("profile").string(), speed_names()));
     if (one_side) control.side = json.at("side").one_of({"left", "right"});
     if (const auto v = json.find("dots")) control.dots = v->integer(2, kMaxDots);
     if (const auto v = json.find("radius")) control.radius = v->number({0.001, 0.1});
@@ -180,6 +198,30 @@ Json controlled(Json script, const Control& control) {
             break;
     }
     return script;
+}
+
+std::vector<int> retimed_order(Speed speed, const std::vector<double>& way, int onset, int apex,
+                               int finer, int frames) {
+    std::vector<int> order;
+    const int last = static_cast<int>(way.size()) - 1;
+    const auto at = [&](int frame) { return way[static_cast<std::size_t>(frame)]; };
+    for (int i = 0; i < frames; ++i) {
+        const int same = std::min(last, finer * i);
+        if (same <= onset || same >= apex) {
+            order.push_back(same);
+            continue;
+        }
+        const double t = static_cast<double>(same - onset) / (apex - onset);
+        const double share = speed == Speed::kConstant      ? t
+                             : speed == Speed::kAccelerated ? t * t
+                                                            : 1 - (1 - t) * (1 - t);
+        const double wanted = at(onset) + share * (at(apex) - at(onset));
+        int frame = onset;
+        while (frame < apex && at(frame) < wanted) ++frame;
+        if (frame > onset && wanted - at(frame - 1) < at(frame) - wanted) --frame;
+        order.push_back(frame);
+    }
+    return order;
 }
 
 std::vector<int> frame_order(const Control& control, int frames, int apex, unsigned seed) {

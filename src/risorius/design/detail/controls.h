@@ -34,11 +34,15 @@ enum class ControlKind {
     kMirrored,        ///< left and right exchanged
     kBandPass,        ///< only middle spatial frequencies within the oval of the face
     kPointLight,      ///< only white dots where landmarks of the face are
-    kMondrian         ///< random rectangles, to mask the face from the other eye
+    kMondrian,        ///< random rectangles, to mask the face from the other eye
+    kSpeed            ///< the same movement at a constant, rising or falling speed
 };
 
 /// The names of controls in design files, in the order of the enumeration from kReversed on.
 const std::vector<std::string>& control_names();
+
+/// How far a movement has come, by the share of its time, for kSpeed.
+enum class Speed { kConstant, kAccelerated, kDecelerated };
 
 /// A control and its parameters.
 struct Control {
@@ -60,6 +64,7 @@ struct Control {
     bool scattered = false;  ///< kPointLight: whether each dot begins its way at a random place
     double rate_hz = 10;     ///< kMondrian: patterns per second, (0, 240]
     bool grey = true;        ///< kMondrian: whether the rectangles have no colour
+    Speed speed = Speed::kConstant;    ///< kSpeed
     std::map<std::string, Json> when;  ///< only conditions with these values get the control
 
     /// Returns whether the control changes only how the pictures of the condition are shown, and not the face.
@@ -80,6 +85,12 @@ Control read_control(const JsonCursor& json);
 
 /// Returns the script of a condition with the changes of the control. It is unchanged when the control changes only the pictures.
 Json controlled(Json script, const Control& control);
+
+/// Returns, for each of `frames` frames of kSpeed, the frame of a film with `finer` times as many. `way`: how far the face has moved in
+/// each frame of the film; `onset`, `apex`: frames of the film. Between them the share of the way becomes t, t^2 or 1 - (1 - t)^2 of the
+/// time t; before and after, the movement is as it was.
+std::vector<int> retimed_order(Speed speed, const std::vector<double>& way, int onset, int apex,
+                               int finer, int frames);
 
 /// Returns, for each frame of the control, the frame of the condition that it shows. `apex`: the frame that differs most from the
 /// first.

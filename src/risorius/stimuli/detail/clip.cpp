@@ -178,6 +178,7 @@ animate::RenderJob render_job_of(const ClipPlan& plan, const fs::path& out,
     request.landmarks = true;  // what is seen to move is measured on them
     request.threads = worker.threads;
     request.renders_at_once = worker.clips_at_once;
+    if (plan.finer() > 1) request.fps = plan.finer() * plan.fps;
     request.flipped_motion = plan.condition.control.kind == design::ControlKind::kFlipped;
     return animate::plan_render_job(request, worker.inputs);
 }
@@ -237,6 +238,15 @@ std::optional<double> full_motion_mm(const ClipPlan& plan, const ClipWorker& wor
     });
 }
 
+/// The frames of a film that a clip shows whose control changes the speed.
+std::vector<int> retimed(const ClipPlan& plan, const SeenMotion& film, int frames) {
+    std::vector<double> way = film.way_mm;
+    way.resize(static_cast<std::size_t>(frames));
+    const int onset = film.onset.value_or(0), apex = film.apex.value_or(0);
+    return design::retimed_order(plan.condition.control.speed, way, onset, apex, plan.finer(),
+                                 plan.frames - plan.lead_frames);
+}
+
 /// The rows of the clip, and its pictures to `pictures`: rendered, or taken from an unmatched render.
 void show_pictures(const animate::RenderJob& job, const std::optional<UnmatchedRender>& unmatched,
                    const ClipWorker& worker, ClipPictures& pictures, ShownClip& shown) {
@@ -260,13 +270,16 @@ void find_motion(const ClipPlan& plan, const animate::RenderJob& job, const Clip
     if (const auto without = animate::job_without_expression(job))
         twin = animate::play_landmarks(*without, worker.session, worker.monitor);
     const design::Control& control = plan.condition.control;
-    int apex = 0;
-    if (control.kind == ControlKind::kApex) {
-        std::vector<int> forwards(static_cast<std::size_t>(job.frames));
-        std::iota(forwards.begin(), forwards.end(), 0);
-        apex = seen_motion(shown.rows, twin, forwards, plan.fps).apex.value_or(0);
+    SeenMotion forwards;
+    if (control.kind == ControlKind::kApex || control.kind == ControlKind::kSpeed) {
+        std::vector<int> all(static_cast<std::size_t>(job.frames));
+        std::iota(all.begin(), all.end(), 0);
+        forwards = seen_motion(shown.rows, twin, all, plan.fps);
     }
-    shown.order = design::frame_order(control, job.frames, apex, plan.condition.seed);
+    shown.order = control.kind == ControlKind::kSpeed
+                      ? retimed(plan, forwards, job.frames)
+                      : design::frame_order(control, job.frames, forwards.apex.value_or(0),
+                                            plan.condition.seed);
     shown.order.insert(shown.order.begin(), static_cast<std::size_t>(plan.lead_frames),
                        shown.order.front());
     // A mask shows no face.
@@ -365,6 +378,7 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
     animate::RenderJob job =
         render_job_of(plan, plan.clips.pictures() ? folder / "none.mkv" : video_file, coding,
                       worker, picture ? std::optional<int>(picture->frame) : std::nullopt);
+    job.video.fps = plan.fps;
     if (ClipPictures::has_layers(plan)) job.view.background.transparent = true;
     if (plan.sound) {
         job.video.sound = sound_of(*plan.sound);

@@ -74,6 +74,8 @@ struct ClipPlan {
     double duration_s() const;         ///< how long it is shown
     double seconds() const;            ///< estimated time to make it on two cores
     double megabytes() const;          ///< estimated
+    /// Frames of the film for each shown frame; more than one for controls that change the speed
+    int finer() const;
     bool has_aois() const;  ///< whether areas of interest are asked for, and it shows them
     bool is_control() const { return condition.control.kind != design::ControlKind::kNone; }
     /// Sets the tone; call it once, before the clip is made

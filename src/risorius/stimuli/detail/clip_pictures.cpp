@@ -120,8 +120,8 @@ void Window::show(const std::array<std::uint8_t, 3>& outside, Image& image) cons
 
 bool needs_all_frames(const ClipPlan& plan) {
     const ControlKind kind = plan.condition.control.kind;
-    return plan.lead_frames > 0 || shows_other_order(kind) || shows_part(kind) ||
-           (plan.condition.control.changes_the_oval() && !plan.luminance);
+    return plan.lead_frames > 0 || plan.finer() > 1 || shows_other_order(kind) ||
+           shows_part(kind) || (plan.condition.control.changes_the_oval() && !plan.luminance);
 }
 
 bool ClipPictures::has_layers(const ClipPlan& plan) {

@@ -26,9 +26,10 @@ namespace {
 // Estimates for two cores: seconds per clip, per frame and per pixel, and bytes per pixel
 constexpr double kClip_s = 0.1, kFrame_s = 0.04, kPlayedFrame_s = 0.015, kPixel_s = 1e-7,
                  kByte_px = 0.03, kLosslessByte_px = 1.2;
-constexpr int kOneKeyframe_s = 10;        // shorter clips have only one key frame
-constexpr double kRounding = 1e-9;        // of a number of frames
-constexpr double kMaxHeld_bytes = 0.6e9;  // limit for frames that are kept in memory
+constexpr int kOneKeyframe_s = 10;              // shorter clips have only one key frame
+constexpr int kFastFilm_hz = 240, kFinest = 8;  // for controls that change the speed
+constexpr double kRounding = 1e-9;              // of a number of frames
+constexpr double kMaxHeld_bytes = 0.6e9;        // limit for frames that are kept in memory
 
 }  // namespace
 
@@ -50,9 +51,15 @@ double ClipPlan::duration_s() const {
     return clips.pictures() ? clips.shown_s : static_cast<double>(frames) / fps;
 }
 
+int ClipPlan::finer() const {
+    return condition.control.kind == ControlKind::kSpeed
+               ? std::clamp(kFastFilm_hz / fps, 1, kFinest)
+               : 1;
+}
+
 double ClipPlan::seconds() const {
     const double played = clips.pictures() ? kPlayedFrame_s * script_frames : 0;
-    return kClip_s + played + frames * (kFrame_s + kPixel_s * width_px * height_px);
+    return kClip_s + played + finer() * frames * (kFrame_s + kPixel_s * width_px * height_px);
 }
 double ClipPlan::megabytes() const {
     const double unmatched = luminance ? kLosslessByte_px : 0;
@@ -115,7 +122,7 @@ std::string sha256_of_rig(const animate::RigInput& rig) {
 void check_control(const ClipPlan& plan, const track::ScriptDescription& script,
                    const track::ChannelTable& channels, const std::string& place) {
     const design::ControlKind kind = plan.condition.control.kind;
-    if (plan.clips.pictures() && shows_other_order(kind))
+    if (plan.clips.pictures() && (shows_other_order(kind) || kind == design::ControlKind::kSpeed))
         throw Error(place, "a control that a picture can show", plan.condition.control.name());
     if (plan.clips.pictures() && plan.condition.audio)
         throw Error(place, "no audio in a set of pictures", *plan.condition.audio);
@@ -123,7 +130,7 @@ void check_control(const ClipPlan& plan, const track::ScriptDescription& script,
         throw Error(place, "a script that lasts until clips/still_s",
                     format_number(static_cast<double>(plan.script_frames) / plan.fps) + " s");
     if (needs_all_frames(plan) &&
-        4.0 * plan.frames * plan.width_px * plan.height_px > kMaxHeld_bytes)
+        4.0 * plan.finer() * plan.frames * plan.width_px * plan.height_px > kMaxHeld_bytes)
         throw Error(place,
                     "fewer or smaller frames for " +
                         (plan.is_control() ? "the control " + plan.condition.control.name()
@@ -156,6 +163,7 @@ std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256
          {"within", plan.luminance && plan.luminance->within_face ? "face" : "picture"}});
     if (plan.clips.pictures())
         rendered["picture"] = plan.clips.still_s ? Json(*plan.clips.still_s) : Json("apex");
+    if (plan.finer() > 1) rendered["finer"] = plan.finer();
     for (const Json::json_pointer& key : file_keys(condition.script)) {
         rendered["script"][key] = "";
         const fs::path file = condition.script.at(key).get<std::string>();

@@ -183,6 +183,7 @@ SeenMotion seen_motion(const animate::FrameRows& rows,
         s.push_back(way.mm);
         if (way.mm > farthest.mm) farthest = way;
     }
+    out.way_mm = s;
     find_other_onsets(rows, landmarks, order, out);
     if (twin) out.blink_onset = blink_onset(*twin, order);
     const bool moves = farthest.mm >= kNoMovement_mm;

@@ -28,6 +28,7 @@ struct SeenMotion {
     std::optional<int> apex;   ///< the first frame with 99 % of the maximum
     std::optional<int>
         offset;  ///< the first frame after the apex with s below the limit of the onset
+    std::vector<double> way_mm;                ///< s of each shown frame
     std::optional<double> velocity_peak_mm_s;  ///< largest rise of s from frame to frame
     /// The first frame in which a landmark of the skull has moved by 0.3 mm, the smaller aperture of the twin's lids is below 80 % of
     /// that in the first frame, or an eye has turned by 1 degree
