@@ -5,14 +5,32 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
 #include "message_of.h"
+#include "paths.h"
 #include "risorius/design/detail/arithmetic.h"
 
 namespace risorius::design {
 namespace {
+
+TEST(Controls, AreAllInTheSchema) {
+    std::ifstream file(RISORIUS_SOURCE_DIR "/docs/formats/schema/risorius-design.schema.json");
+    const Json schema = Json::parse(file);
+    std::set<std::string> known;
+    const std::function<void(const Json&)> look = [&](const Json& value) {
+        if (value.is_object() && value.contains("enum") && value["enum"].size() > 10)
+            for (const Json& name : value["enum"]) known.insert(name.get<std::string>());
+        if (value.is_structured())
+            for (const Json& inner : value) look(inner);
+    };
+    look(schema);
+    for (const std::string& name : control_names()) EXPECT_EQ(known.count(name), 1u) << name;
+}
 
 TEST(FrameOrder, IsThatOfTheControl) {
     const auto order = [](ControlKind kind, unsigned seed = 1) {

@@ -12,6 +12,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
+#include "risorius/core/known_names.h"
 #include "risorius/core/readable_text.h"
 
 namespace risorius::design {
@@ -124,6 +125,26 @@ Given matched_intensity(const Design& design, const ConditionSet& set,
     };
     const double share = Parameters(with(1)).at(kSeenStep).get<double>();
     return with(find(share, script_at, set.script.folder(), set.place)).back();
+}
+
+/// The values of a condition, from what is given before the overrides.
+Parameters values_of(const Design& design, const ConditionSet& set, std::vector<Given> given,
+                     const FindIntensity& find) {
+    const Parameters before(given);
+    for (const Override& one : set.overrides)
+        if (holds(one.when, before)) given.insert(given.end(), one.set.begin(), one.set.end());
+    if (design.match.motion) given.push_back(matched_intensity(design, set, given, find));
+    return Parameters(given);
+}
+
+/// What is given for the lower half of a chimeric clip.
+std::vector<Given> with_lower(std::vector<Given> given, const Control& control,
+                              const Parameters& values) {
+    for (const auto& [name, value] : control.lower) {
+        index_of_name(value.place(), name, values.names());
+        given.push_back({name, value});
+    }
+    return given;
 }
 
 /// Adds a clip and checks that its name is unique, also without regard to case.
@@ -259,12 +280,7 @@ std::vector<Condition> conditions_of(const Design& design, const FindIntensity& 
             for (std::size_t f = 0; f < set.factors.size(); ++f)
                 given.push_back({set.factors[f].name,
                                  set.factors[f].levels[static_cast<std::size_t>(levels[f + 1])]});
-            const Parameters before(given);
-            for (const Override& one : set.overrides)
-                if (holds(one.when, before))
-                    given.insert(given.end(), one.set.begin(), one.set.end());
-            if (design.match.motion) given.push_back(matched_intensity(design, set, given, find));
-            const Parameters values(given);
+            const Parameters values = values_of(design, set, given, find);
 
             Condition condition;
             condition.clip = condition.of = clip_name(set, values);
@@ -290,6 +306,10 @@ std::vector<Condition> conditions_of(const Design& design, const FindIntensity& 
                 beside.control = control;
                 append_word(control.name(), beside.clip);
                 beside.script = controlled(script, control);
+                if (control.kind == ControlKind::kChimeric)
+                    beside.lower_script =
+                        values_of(design, set, with_lower(given, control, values), find)
+                            .filled(set.script);
                 if (control.kind == ControlKind::kNeutral) {
                     if (neutrals.add(beside, out.size(), out)) out.push_back(std::move(beside));
                     continue;

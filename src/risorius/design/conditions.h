@@ -28,7 +28,8 @@ struct Condition {
     /// Name of the clip that this one is a control of; its own name if it is not a control
     std::string of;
     std::vector<std::pair<std::string, Json>> values;  ///< all parameters, by name
-    Json script;  ///< with all values filled in, and changed as the control requires
+    Json script;        ///< with all values filled in, and changed as the control requires
+    Json lower_script;  ///< of a chimeric clip: the script of the lower half; null in others
     std::filesystem::path folder;                ///< folder to which its relative paths refer
     unsigned seed = 0;                           ///< seed of the random numbers of the control
     std::optional<std::filesystem::path> audio;  ///< recording of the sound

@@ -19,7 +19,7 @@ const std::vector<std::string>& control_names() {
         "reversed",    "scrambled", "apex",    "upside_down", "phase_scrambled", "eyes_only",
         "mouth_only",  "flipped",   "neutral", "knock_out",   "palsy",           "late_side",
         "low_pass",    "high_pass", "oval",    "noise",       "mirrored",        "band_pass",
-        "point_light", "mondrian",  "speed"};
+        "point_light", "mondrian",  "speed",   "chimeric"};
     return kNames;
 }
 
@@ -50,6 +50,7 @@ bool Control::shows_otherwise() const {
         case ControlKind::kPointLight:
         case ControlKind::kMondrian:
         case ControlKind::kSpeed:
+        case ControlKind::kChimeric:
             return true;
         case ControlKind::kNone:
         case ControlKind::kFlipped:
@@ -95,6 +96,12 @@ std::string Control::name() const {
     if (kind == ControlKind::kBandPass)
         return clip_word(plain + "_" + format_number(cycles_per_face) + "_to_" +
                          format_number(upper_cycles_per_face));
+    if (kind == ControlKind::kChimeric) {
+        std::string words = plain;
+        for (const auto& [name, value] : lower)
+            words += "_" + (value.json().is_string() ? value.string() : json_text(value.json()));
+        return clip_word(words + (offset != 0 ? "_offset_" + format_number(offset) : ""));
+    }
     if (kind == ControlKind::kSpeed)
         return clip_word(speed_names()[static_cast<std::size_t>(speed)] + "_speed");
     if (kind == ControlKind::kPointLight && scattered) return clip_word(plain + "_scattered");
@@ -140,6 +147,8 @@ Control read_control(const JsonCursor& json) {
         if (control.kind == ControlKind::kKnockOut)
             json.fail("an object with \"control\" and \"muscle\"");
         if (one_side) json.fail("an object with \"control\" and \"side\"");
+        if (control.kind == ControlKind::kChimeric)
+            json.fail("an object with \"control\" and \"lower\"");
         if (control.kind == ControlKind::kSpeed)
             json.fail("an object with \"control\" and \"profile\"");
         return control;
@@ -148,6 +157,7 @@ Control read_control(const JsonCursor& json) {
     if (control.kind == ControlKind::kKnockOut) keys.push_back("muscle");
     if (one_side) keys.push_back("side");
     if (control.kind == ControlKind::kSpeed) keys.push_back("profile");
+    if (control.kind == ControlKind::kChimeric) keys.insert(keys.end(), {"lower", "offset"});
     if (control.kind == ControlKind::kPalsy) keys.push_back("weakness");
     if (control.kind == ControlKind::kLateSide) keys.push_back("late_s");
     if (passes) keys.insert(keys.end(), {"cycles_per_face", "order", "contrast"});
@@ -168,6 +178,12 @@ Control read_control(const JsonCursor& json) {
         control.speed = static_cast<Speed>(
             index_of_name(json.at("profile").place(), json.at("profile").string(), speed_names()));
     if (one_side) control.side = json.at("side").one_of({"left", "right"});
+    if (control.kind == ControlKind::kChimeric) {
+        const JsonCursor lower = json.at("lower");
+        for (const std::string& key : lower.keys()) control.lower.emplace_back(key, lower.at(key));
+        if (control.lower.empty()) lower.fail("at least one parameter of the lower half", "none");
+    }
+    if (const auto v = json.find("offset")) control.offset = v->number({-1, 1});
     if (const auto v = json.find("dots")) control.dots = v->integer(2, kMaxDots);
     if (const auto v = json.find("radius")) control.radius = v->number({0.001, 0.1});
     if (const auto v = json.find("scattered")) control.scattered = v->boolean();

@@ -35,7 +35,8 @@ enum class ControlKind {
     kBandPass,        ///< only middle spatial frequencies within the oval of the face
     kPointLight,      ///< only white dots where landmarks of the face are
     kMondrian,        ///< random rectangles, to mask the face from the other eye
-    kSpeed            ///< the same movement at a constant, rising or falling speed
+    kSpeed,           ///< the same movement at a constant, rising or falling speed
+    kChimeric         ///< the upper half of the face, over the lower half of another condition
 };
 
 /// The names of controls in design files, in the order of the enumeration from kReversed on.
@@ -64,7 +65,10 @@ struct Control {
     bool scattered = false;  ///< kPointLight: whether each dot begins its way at a random place
     double rate_hz = 10;     ///< kMondrian: patterns per second, (0, 240]
     bool grey = true;        ///< kMondrian: whether the rectangles have no colour
-    Speed speed = Speed::kConstant;    ///< kSpeed
+    Speed speed = Speed::kConstant;  ///< kSpeed
+    /// kChimeric: the values in which the condition of the lower half differs, at least one
+    std::vector<std::pair<std::string, JsonCursor>> lower = {};
+    double offset = 0;  ///< kChimeric: of the lower half to the right / width of the face, [-1, 1]
     std::map<std::string, Json> when;  ///< only conditions with these values get the control
 
     /// Returns whether the control changes only how the pictures of the condition are shown, and not the face.

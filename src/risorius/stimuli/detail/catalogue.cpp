@@ -232,6 +232,24 @@ std::vector<Column> columns_of(const BatchPlan& plan, const std::vector<Json>& r
                        described("Highest peak of the whole recording by EBU R 128", "dBTP"),
                        of_sound("true_peak_dbtp")});
     }
+    const bool chimeric = std::any_of(records.begin(), records.end(),
+                                      [](const Json& one) { return one.contains("seam"); });
+    const auto of_seam = [&](const char* key) {
+        return [&records, key](std::size_t i) {
+            return records[i].contains("seam")
+                       ? rounded(records[i].at("seam").at(key).get<double>())
+                       : Json();
+        };
+    };
+    if (chimeric) {
+        out.push_back({"seam_row_px",
+                       described("Height of the seam of a chimeric clip, from the top", "px"),
+                       of_seam("row_px")});
+        out.push_back({"seam_difference",
+                       described("Root mean square difference of relative luminance between the "
+                                 "two faces of a chimeric clip at the seam, mean of the frames"),
+                       of_seam("difference_mean")});
+    }
     for (const std::string& name : value_names(records))
         out.push_back({name, described("Parameter of the design, see code/design.json"),
                        [&records, name](std::size_t i) {

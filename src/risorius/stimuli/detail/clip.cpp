@@ -22,6 +22,7 @@
 #include "risorius/media/video_writer.h"
 #include "risorius/media/wav_file.h"
 #include "risorius/stimuli/detail/aois.h"
+#include "risorius/stimuli/detail/chimera.h"
 #include "risorius/stimuli/detail/clip_pictures.h"
 #include "risorius/stimuli/detail/clip_plan.h"
 #include "risorius/stimuli/detail/expression_script.h"
@@ -49,8 +50,8 @@ Json relocated(Json script, const fs::path& from, const fs::path& to) {
     return script;
 }
 
-fs::path script_file(const ClipPlan& plan) {
-    return fs::path("code/scripts") / (plan.condition.clip + ".json");
+fs::path script_file(const ClipPlan& plan, const char* half = "") {
+    return fs::path("code/scripts") / (plan.condition.clip + half + ".json");
 }
 
 std::string stem(const ClipPlan& plan) { return "stimuli/stim-" + plan.condition.clip; }
@@ -116,6 +117,7 @@ double SettledMotions::at(const std::string& key, const std::function<double()>&
 
 std::vector<fs::path> ClipFiles::listed() const {
     std::vector<fs::path> files{script, strip, video, events, columns};
+    if (!lower_script.empty()) files.push_back(lower_script);
     if (!sound.empty()) files.push_back(sound);
     if (!aois.empty()) files.insert(files.end(), {aois, aoi_columns, aoi_key_frames, aoi_ias});
     return files;
@@ -135,6 +137,7 @@ ClipFiles clip_files(const ClipPlan& plan) {
             stem(plan) + suffix(plan) + "." + plan.clips.ending,
             stem(plan) + "_annot-frames_events.tsv",
             stem(plan) + "_annot-frames_events.json",
+            plan.lower ? script_file(plan, "_lower") : fs::path(),
             plan.sound ? fs::path(stem(plan) + "_audio.wav") : fs::path(),
             only(stem(plan) + "_annot-aois_events.tsv"),
             only(stem(plan) + "_annot-aois_events.json"),
@@ -186,9 +189,9 @@ animate::RenderJob render_job_of(const ClipPlan& plan, const fs::path& out,
 namespace {
 
 /// The script as it is played, for code/scripts.
-std::string clip_script(const ClipPlan& plan, const fs::path& folder) {
+std::string clip_script(const ClipPlan& plan, const Json& script, const fs::path& folder) {
     const fs::path below = (folder / script_file(plan)).parent_path();
-    return json_text(relocated(plan.condition.script, plan.condition.folder, below), 2) + "\n";
+    return json_text(relocated(script, plan.condition.folder, below), 2) + "\n";
 }
 
 /// The unmatched render of a clip: an existing one, or a new one.
@@ -210,6 +213,7 @@ struct ShownClip {
     SeenMotion motion;
     std::optional<double> commanded_onset_s, commanded_apex_s;
     Json run, luminance;  ///< luminance: null if it is not matched
+    Json seam;            ///< of a chimeric clip; null in others
 };
 
 /// When the strongest expression of a script is told to begin and to be complete.
@@ -263,6 +267,26 @@ void show_pictures(const animate::RenderJob& job, const std::optional<UnmatchedR
     shown.rows = animate::frame_rows(result.table);
 }
 
+/// The lower half of a chimeric clip.
+struct LowerHalf {
+    std::vector<Image> frames;
+    animate::FrameRows rows;
+};
+
+LowerHalf lower_half(const ClipPlan& plan, const ClipWorker& worker) {
+    const ClipPlan& lower = *plan.lower;
+    std::optional<int> frame;
+    if (lower.clips.pictures()) frame = picture_frame(lower, worker).frame;
+    animate::RenderJob job = render_job_of(lower, worker.folder / "none.mkv", {}, worker, frame);
+    if (ClipPictures::has_layers(plan)) job.view.background.transparent = true;
+    LowerHalf out;
+    const animate::RenderResult result = animate::run_render_job(
+        job, worker.session, [&](Image image) { out.frames.push_back(std::move(image)); },
+        worker.monitor);
+    out.rows = animate::frame_rows(result.table);
+    return out;
+}
+
 /// What is seen to move in a video, and the order of its frames.
 void find_motion(const ClipPlan& plan, const animate::RenderJob& job, const ClipWorker& worker,
                  ShownClip& shown) {
@@ -295,22 +319,32 @@ ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
     ShownClip shown;
     show_pictures(job, unmatched, worker, pictures, shown);
     const ControlKind kind = plan.condition.control.kind;
+    const animate::FrameRows upper = shown.rows;  // what pictures are measured by
+    std::optional<Chimera> chimera;
+    if (plan.lower) {
+        LowerHalf lower = lower_half(plan, worker);
+        chimera.emplace(plan, upper, std::move(lower.frames));
+        pictures.combine_with(*chimera);
+        shown.rows = chimera->rows(upper, lower.rows);
+    }
     if (!picture) {
         find_motion(plan, job, worker, shown);
     } else {
         shown.order = {0};
         shown.first_source = picture->frame;
-        if (!picture->landmark.empty() && kind != ControlKind::kMondrian) {
+        if (!picture->landmark.empty() && kind != ControlKind::kMondrian && !chimera) {
             shown.motion.seen_mm = picture->seen_mm;
             shown.motion.landmark = picture->landmark;
         }
     }
     if (kind == ControlKind::kMirrored) shown.motion.landmark = other_side(shown.motion.landmark);
-    if (shown.motion.seen_mm) shown.motion.full_mm = full_motion_mm(plan, worker);
-    if (!picture && std::is_sorted(shown.order.begin(), shown.order.end()) && shown.motion.seen_mm)
+    if (shown.motion.seen_mm && !chimera) shown.motion.full_mm = full_motion_mm(plan, worker);
+    if (!picture && !chimera && std::is_sorted(shown.order.begin(), shown.order.end()) &&
+        shown.motion.seen_mm)
         find_commanded(job.script, static_cast<double>(plan.lead_frames) / plan.fps, shown);
-    pictures.know(shown.rows);
+    pictures.know(upper);
     pictures.finish(shown.order);
+    if (chimera) shown.seam = chimera->json();
     if (unmatched) shown.luminance = matched_luminance(plan, *unmatched, pictures);
     return shown;
 }
@@ -348,6 +382,7 @@ Json sidecar_of(const ClipPlan& plan, ShownClip shown, ClipPictures& pictures) {
                          {"onset_s", or_null(plan.sound->onset_s)},
                          {"loudness_lufs", finite_or_null(plan.sound->loudness.integrated_lufs)},
                          {"true_peak_dbtp", finite_or_null(plan.sound->loudness.true_peak_dbtp)}});
+    if (!shown.seam.is_null()) record["seam"] = std::move(shown.seam);
     if (!shown.luminance.is_null()) record["luminance"] = std::move(shown.luminance);
     return record;
 }
@@ -364,7 +399,10 @@ void make_clip(const ClipPlan& plan, const ClipWorker& worker) {
     const fs::path sidecar = outputs.file(folder / files.sidecar);
     std::map<fs::path, fs::path> written;
     for (const fs::path& file : files.listed()) written[file] = outputs.file(folder / file);
-    write_file(written[files.script], clip_script(plan, folder));
+    write_file(written[files.script], clip_script(plan, plan.condition.script, folder));
+    if (plan.lower)
+        write_file(written[files.lower_script],
+                   clip_script(plan, plan.lower->condition.script, folder));
 
     const fs::path video_file = written[files.video];
     media::VideoOptions coding;

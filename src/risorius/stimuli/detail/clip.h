@@ -11,6 +11,7 @@
 ///   stimuli/stim-NAME_video.json                 the sidecar: how the clip was made; it exists only when the clip is complete
 ///   stimuli/stim-NAME_annot-aois_events.tsv      areas of interest, with their .json, aois/NAME_tobii.json and aois/NAME.ias; see aois.h
 ///   overview/NAME.png                            five of its frames side by side
+///   code/scripts/NAME_lower.json                 of a chimeric clip: the script of its lower half
 ///   code/scripts/NAME.json                       the script as it was played; it is written for the reader, not read back
 #pragma once
 
@@ -57,6 +58,8 @@ struct ClipPlan {
     /// In place of the tone when histograms or spectra are matched
     std::shared_ptr<const MappedLuminance> mapped;
     std::optional<ClipSound> sound;
+    /// Of a chimeric clip: the plan of what its lower half shows
+    std::shared_ptr<const ClipPlan> lower;
     int frames = 0, fps = 0, width_px = 0, height_px = 0;  ///< a picture has one frame
     int script_frames = 0;                                 ///< frames that the script lasts
     /// Frames at the beginning that show the first one, because a recording of the set begins before the script; part of `frames`
@@ -93,7 +96,8 @@ bool is_made(const ClipPlan& plan, const std::filesystem::path& folder);
 /// The paths of a clip's files below the folder of the set.
 struct ClipFiles {
     std::filesystem::path script, strip, video, events, columns;
-    std::filesystem::path sound;  ///< empty when there is none
+    std::filesystem::path lower_script;  ///< empty unless the clip is chimeric
+    std::filesystem::path sound;         ///< empty when there is none
     std::filesystem::path aois, aoi_columns, aoi_key_frames,
         aoi_ias;                    ///< empty when none are asked for
     std::filesystem::path sidecar;  ///< written last: a clip that has it is complete

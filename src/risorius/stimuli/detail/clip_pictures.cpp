@@ -11,6 +11,7 @@
 #include "risorius/media/face_filter.h"
 #include "risorius/media/sync_marks.h"
 #include "risorius/report/contact_sheet.h"
+#include "risorius/stimuli/detail/chimera.h"
 #include "risorius/stimuli/detail/mirrored_rows.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
 
@@ -120,7 +121,7 @@ void Window::show(const std::array<std::uint8_t, 3>& outside, Image& image) cons
 
 bool needs_all_frames(const ClipPlan& plan) {
     const ControlKind kind = plan.condition.control.kind;
-    return plan.lead_frames > 0 || plan.finer() > 1 || shows_other_order(kind) ||
+    return plan.lead_frames > 0 || plan.finer() > 1 || plan.lower || shows_other_order(kind) ||
            shows_part(kind) || (plan.condition.control.changes_the_oval() && !plan.luminance);
 }
 
@@ -291,6 +292,7 @@ Json ClipPictures::map_report() const { return map_report_->json(); }
 
 void ClipPictures::write(Image image, int frame) {
     std::vector<float> measured, oval;
+    if (chimera_) chimera_->combine(frame, image);
     if (plan_.luminance) measured = measured_weights(plan_, *rows_, frame, image);
     if (plan_.condition.control.changes_the_oval())
         oval = weights_in_oval(plan_, *rows_, frame, image);

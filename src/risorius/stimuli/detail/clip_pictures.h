@@ -20,6 +20,8 @@
 
 namespace risorius::stimuli {
 
+class Chimera;
+
 /// Returns whether the control changes the order of frames, so that all frames are needed before the first one is written.
 bool shows_other_order(design::ControlKind kind);
 /// Returns whether the control shows only a window around eyes or mouth.
@@ -54,6 +56,8 @@ class ClipPictures {
 
     /// Gives the table of the frames. It must be known before finish(), and before the first picture of a matched clip.
     void know(const animate::FrameRows& rows) { rows_ = &rows; }
+    /// Gives the lower half of a chimeric clip. It must be known before finish().
+    void combine_with(Chimera& chimera) { chimera_ = &chimera; }
     /// Adds a rendered picture, in the order of the frames.
     void add(Image image);
     /// Call this after the last picture. It writes the pictures if the control needs all frames first.
@@ -92,6 +96,7 @@ class ClipPictures {
     std::function<void(const Image&)> show_;
     bool later_, measured_, layered_;
     const animate::FrameRows* rows_ = nullptr;
+    Chimera* chimera_ = nullptr;
     std::optional<Window> window_;
     std::optional<PointLights> dots_;
     media::Mondrian mask_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_object.h"
@@ -59,7 +60,8 @@ int ClipPlan::finer() const {
 
 double ClipPlan::seconds() const {
     const double played = clips.pictures() ? kPlayedFrame_s * script_frames : 0;
-    return kClip_s + played + finer() * frames * (kFrame_s + kPixel_s * width_px * height_px);
+    return kClip_s + played +
+           (finer() + (lower ? 1 : 0)) * frames * (kFrame_s + kPixel_s * width_px * height_px);
 }
 double ClipPlan::megabytes() const {
     const double unmatched = luminance ? kLosslessByte_px : 0;
@@ -129,8 +131,9 @@ void check_control(const ClipPlan& plan, const track::ScriptDescription& script,
     if (plan.clips.still_s.value_or(0) * plan.fps > plan.script_frames - 1 + kRounding)
         throw Error(place, "a script that lasts until clips/still_s",
                     format_number(static_cast<double>(plan.script_frames) / plan.fps) + " s");
-    if (needs_all_frames(plan) &&
-        4.0 * plan.finer() * plan.frames * plan.width_px * plan.height_px > kMaxHeld_bytes)
+    if (needs_all_frames(plan) && 4.0 * (plan.finer() + (kind == design::ControlKind::kChimeric)) *
+                                          plan.frames * plan.width_px * plan.height_px >
+                                      kMaxHeld_bytes)
         throw Error(place,
                     "fewer or smaller frames for " +
                         (plan.is_control() ? "the control " + plan.condition.control.name()
@@ -194,6 +197,7 @@ std::string content_sha256_of(const ClipPlan& plan) {
                  {"made_by", kWayOfMaking},
                  {"photodiode", clips.photodiode ? Json(*clips.photodiode) : Json()}};
     // What the name of a control does not tell; older controls keep their checksums
+    if (plan.lower) content["lower"] = plan.lower->render_sha256;
     if (const Json unnamed = condition.control.unnamed(); !unnamed.is_null())
         content["control_keys"] = unnamed;
     if (plan.has_aois())
@@ -206,6 +210,25 @@ std::string content_sha256_of(const ClipPlan& plan) {
                                         {"offset_samples", plan.sound->offset_samples},
                                         {"gain_db", plan.sound->gain_db}});
     return animate::sha256_of_text(json_text(content));
+}
+
+/// Plans what the lower half of a chimeric clip shows. Throws Error when it is not as long or as large as the upper half.
+std::shared_ptr<const ClipPlan> plan_lower_half(const ClipPlan& upper, double lead_s,
+                                                const design::Design& design,
+                                                animate::RenderInputs& inputs, SoundPlans& sounds) {
+    design::Condition condition = upper.condition;
+    condition.script = std::exchange(condition.lower_script, Json());
+    condition.control = {};
+    condition.audio.reset();
+    auto lower =
+        std::make_shared<const ClipPlan>(plan_clip(condition, lead_s, design, inputs, sounds));
+    const auto shape = [](const ClipPlan& plan) {
+        return std::to_string(plan.script_frames) + " frames at " + std::to_string(plan.fps) +
+               " fps of " + std::to_string(plan.width_px) + " x " + std::to_string(plan.height_px);
+    };
+    if (shape(*lower) != shape(upper))
+        throw Error(upper.script_name, "a lower half of " + shape(upper), shape(*lower));
+    return lower;
 }
 
 }  // namespace
@@ -253,6 +276,8 @@ ClipPlan plan_clip(const design::Condition& condition, double lead_s, const desi
     plan.scene_sha256 = animate::sha256_of_text(
         json_text(Json{rig_sha256, clips.quality, condition.script.value("view", Json())}));
     plan.render_sha256 = render_sha256_of(plan, rig_sha256);
+    if (!condition.lower_script.is_null())
+        plan.lower = plan_lower_half(plan, lead_s, design, inputs, sounds);
     plan.content_sha256 = content_sha256_of(plan);
     return plan;
 }

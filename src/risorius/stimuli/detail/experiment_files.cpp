@@ -48,7 +48,7 @@ std::string correct_key(const design::ExperimentOptions& experiment,
     // These do not show what the condition shows.
     const design::ControlKind kind = condition.control.kind;
     if (kind == design::ControlKind::kPhaseScrambled || kind == design::ControlKind::kKnockOut ||
-        kind == design::ControlKind::kMondrian)
+        kind == design::ControlKind::kMondrian || kind == design::ControlKind::kChimeric)
         return {};
     if (kind == design::ControlKind::kNeutral) {
         for (const auto& [key, answer] : experiment.answers)

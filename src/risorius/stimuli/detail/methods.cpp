@@ -217,6 +217,9 @@ std::string control_words(const design::Control& control) {
     if (control.kind == ControlKind::kNoise)
         out += " (signal-to-noise ratio " + format_number(control.snr_db) + " dB)";
     if (control.kind == ControlKind::kKnockOut) out += " (" + control.muscle + ")";
+    if (control.kind == ControlKind::kChimeric)
+        out += " (" + control.name() + ", the upper half of the condition over a lower half, cut " +
+               "half-way between nasion and subnasale)";
     if (control.kind == ControlKind::kSpeed) out += " (" + control.name() + ")";
     if (control.kind == ControlKind::kMondrian)
         out += " (" + format_number(control.rate_hz) + " patterns per second)";

@@ -114,6 +114,7 @@ std::string clip_of(const Json& record, const std::string& file_name) {
 bool belongs_to(const std::string& clip, const std::string& file) {
     const std::string stem = "stimuli/stim-" + clip + "_";
     return file == "overview/" + clip + ".png" || file == "code/scripts/" + clip + ".json" ||
+           file == "code/scripts/" + clip + "_lower.json" ||
            file == "aois/" + clip + "_tobii.json" || file == "aois/" + clip + ".ias" ||
            (file.starts_with(stem) && file.find('/', stem.size()) == std::string::npos);
 }
