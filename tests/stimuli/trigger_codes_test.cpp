@@ -26,6 +26,7 @@ Json record(const char* clip, const Json& onset) {
     return {{"stim_id", clip},
             {"fps", 10},
             {"frames", 6},
+            {"duration_s", 0.6},
             {"movement_onset_frame", onset},
             {"apex_frame", onset}};
 }
