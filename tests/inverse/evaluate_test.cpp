@@ -253,6 +253,16 @@ TEST(ReadUnits, TheAdultsUnitsGoAsFarAndAsEvenlyAsTheTableAsks) {
         EXPECT_TRUE(unit.in_equilibrium) << unit.unit;
     }
     EXPECT_GT(readings.units[1].change.corner_height, 8);
+    // Brows that meet fold the skin between them, a smile that beside the nose, and the other way round not.
+    const scene::FaceMeasures &frown = readings.units[0].change, &smile = readings.units[1].change;
+    EXPECT_GT(frown.glabellar_furrow, 1);
+    EXPECT_NEAR(smile.glabellar_furrow, 0, 0.2);
+    EXPECT_GT(smile.nasolabial_furrow, 1);
+    EXPECT_NEAR(frown.nasolabial_furrow, 0, 0.2);
+    const Json json = readings.json();
+    EXPECT_EQ(json["units"][0]["change"]["glabellar_furrow_mm"], frown.glabellar_furrow);
+    EXPECT_EQ(json["units"][1]["change"]["lip_contact_mm2"], smile.lip_contact_mm2);
+    for (const scene::UnitReading& unit : readings.units) EXPECT_LT(unit.uneven_mm, 1) << unit.unit;
     EXPECT_EQ(
         message_of([] { read_units({.rig = kRoot / "rigs/adult/rig.json", .only = {"AU99"}}); }),
         (kRoot / "rigs/adult/rig.json").string() +

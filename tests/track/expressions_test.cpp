@@ -211,10 +211,10 @@ TEST(Expressions, AddTheirMusclesToTheUnits) {
     // The unit asks for 0.98, the expression for 1 more. What a muscle gets ends at 1.
     EXPECT_EQ(of("anger", "").at(1.4).excitation[column], 1);
     const double unit =
-        tables().facs.find("AU4")->curve.activation(0.25) *
+        tables().facs.find("AU4")->curve.muscles.activation(0.25) *
         expand(*tables().facs.find("AU4"), std::nullopt, tables().channels).excitation[column];
     EXPECT_NEAR(of("anger", R"(, "intensity": 0.25)").at(1.4).excitation[column],
-                unit + curve_of_added_muscles().activation(0.25), 1e-12);
+                unit + curve_of_added_muscles().muscles.activation(0.25), 1e-12);
     EXPECT_EQ(of("anger", R"(, "side": "l")").at(1.4).excitation[column], 0);
     const Drive uneven = of("anger", R"(, "asymmetry": 0.3, "intensity": 0.5)").at(1.4);
     EXPECT_NE(uneven.excitation[column],

@@ -46,7 +46,7 @@ TEST(Timeline, OfAnEmptyScriptIsRest) {
 /// What a unit of this intensity asks of a muscle.
 double asked(const std::string& unit, const std::string& column, double intensity) {
     const ActionUnit& found = *tables().facs.find(unit);
-    return found.curve.activation(intensity) *
+    return found.curve.muscles.activation(intensity) *
            expand(found, std::nullopt, tables().channels).excitation[tables().column(column)];
 }
 
@@ -173,7 +173,7 @@ TEST(Timeline, ExpressionIsZeroOutsideAndItsIntensityAtTheApex) {
     // In the table, AU12 has the value 1, AU6 0.8, and zygomaticus major gets 0.5 more.
     const auto zygomaticus = [](double intensity) {
         return asked("AU12", "zygomaticus_major.l", intensity) +
-               0.5 * curve_of_added_muscles().activation(intensity);
+               0.5 * curve_of_added_muscles().muscles.activation(intensity);
     };
     for (double t : {1.4, 1.7, 1.99}) {
         EXPECT_NEAR(excitation(face.at(t), "zygomaticus_major.l"), zygomaticus(0.5), 1e-15);

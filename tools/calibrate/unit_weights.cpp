@@ -208,9 +208,7 @@ void write_unit_gains(const std::filesystem::path& file) {
     face::Face face(files.rig, files.mesh, face::quality_named("preview"), files.place());
     for (const auto& [unit, gain] : fitting::fit_units(face, files.rig, {})) {
         std::printf("%-8s muscles %.3f reached %.2f\n", unit.c_str(), gain.muscles, gain.reached);
-        json["unit_gains"][unit] = json_object({{"muscles", gain.muscles},
-                                                {"activation_at", gain.curve.points()},
-                                                {"reached", gain.reached}});
+        json["unit_gains"][unit] = rig::unit_gain_json(gain);
     }
     write_file(file, json_text(json, 1) + "\n");
 }

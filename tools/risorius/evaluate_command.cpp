@@ -100,16 +100,20 @@ void compare(EvaluateArguments& arguments) {
 }
 
 void print(const inverse::UnitReadings& readings) {
-    const scene::FaceLengths& rest = readings.neutral;
+    const scene::FaceMeasures& rest = readings.neutral;
     std::printf("%s, neutral: eye opening %.1f mm, mouth %.1f mm wide\n", readings.rig.c_str(),
                 rest.lid_aperture, rest.mouth_width);
-    std::printf("  %-6s %5s %5s %5s %5s %6s %6s %6s %6s  %s\n", "", "gain", ".25", ".5", ".75",
-                "eye", "width", "gap", "corner", "landmarks: gain along the target");
+    std::printf("  %-6s %5s %5s %5s %5s %6s %6s %6s %6s %6s %6s %6s %6s  %s\n", "", "gain", ".25",
+                ".5", ".75", "eye", "width", "gap", "corner", "fold", "frown", "brow", "touch",
+                "landmarks: gain along the target");
     for (const scene::UnitReading& one : readings.units) {
         std::printf("  %-6s %5.2f %5.2f %5.2f %5.2f %+6.1f %+6.1f %+6.1f %+6.1f ", one.unit.c_str(),
                     one.gain, one.response[0], one.response[1], one.response[2],
                     one.change.lid_aperture, one.change.mouth_width, one.change.lip_gap,
                     one.change.corner_height);
+        std::printf("%+6.1f %+6.1f %+6.1f %+6.0f ", one.change.nasolabial_furrow,
+                    one.change.glabellar_furrow, one.change.forehead_furrow,
+                    one.change.lip_contact_mm2);
         for (const scene::LandmarkReading& mark : one.landmarks)
             std::printf(" %s %.2f", mark.landmark.c_str(), mark.gain);
         std::printf("%s\n", one.in_equilibrium ? "" : "  did not come to rest");

@@ -420,9 +420,7 @@ Json FitReport::json() const {
     json["expressions"] =
         json_object({{"difference_before", difference_before}, {"difference", difference}});
     for (const auto& [unit, gain] : unit_gains)
-        json["unit_gains"][unit] = json_object({{"muscles", gain.muscles},
-                                                {"activation_at", gain.curve.points()},
-                                                {"reached", gain.reached}});
+        json["unit_gains"][unit] = rig::unit_gain_json(gain);
     json["strengths"] = Json::array();
     for (const MuscleStrength& m : strengths)
         json["strengths"].push_back(json_object({{"muscle", m.muscle},

@@ -19,6 +19,14 @@ constexpr int kScalings = 5;
 constexpr double kEven = 0.01;  // of the response
 constexpr std::array<double, 3> kIntensities{0.25, 0.5, 0.75};
 
+bool moves_channels(const track::ActionUnit& unit) {
+    for (int k = 0; k < track::kKinematicCount; ++k)
+        if (unit.kinematic[static_cast<std::size_t>(k)] != 0 &&
+            track::has_curve(static_cast<track::Kinematic>(k)))
+            return true;
+    return false;
+}
+
 bool moved_by_muscles_alone(const track::ActionUnit& unit) {
     const bool still = std::all_of(unit.kinematic.begin(), unit.kinematic.end(),
                                    [](double value) { return value == 0; });
@@ -67,9 +75,14 @@ class UnitFit {
             out.reached = reached;
         }
         out.muscles = std::round(1e3 * out.muscles) / 1e3;
-        out.curve = even_curve(out);
-        out.reached = std::round(1e2 * out.reached) / 1e2;
-        return out;
+        return finish(out);
+    }
+
+    // Jaw and pressure go as far as the table says; they only get curves, so that chin and cheeks move evenly.
+    rig::UnitGain fit_channels() {
+        rig::UnitGain out;
+        out.reached = gain(1);
+        return finish(out);
     }
 
   private:
@@ -79,25 +92,38 @@ class UnitFit {
         return reader_.gain(unit_, sum);
     }
 
-    // Inverts the response, measured at three activations.
-    track::IntensityCurve even_curve(const rig::UnitGain& found) {
-        std::array<double, 5> activation{0, 0, 0, 0, 1}, response{0, 0, 0, 0, 1};
-        const std::array<double, 3> at = unit_.curve.points();
-        for (std::size_t i = 0; i < at.size(); ++i) {
-            activation[i + 1] = at[i];
-            response[i + 1] = gain(at[i] * found.muscles) / found.reached;
-            if (!(response[i + 1] > response[i] + kEven)) return unit_.curve;
+    rig::UnitGain finish(rig::UnitGain out) {
+        out.curve = unit_.curve;
+        if (out.reached > kNothing) out.curve = even_curves(out);
+        out.reached = std::round(1e2 * out.reached) / 1e2;
+        return out;
+    }
+
+    // Inverts the response, measured at three intensities of the curves of the table.
+    track::UnitCurves even_curves(const rig::UnitGain& found) {
+        track::Expansion scaled = none_;
+        scaled.add(whole_, 1.0);
+        scaled.excitation *= found.muscles;
+        std::array<double, 5> intensity{0, 0.25, 0.5, 0.75, 1}, response{0, 0, 0, 0, 1};
+        for (std::size_t i = 1; i < 4; ++i) {
+            track::Expansion sum = none_;
+            sum.add(scaled, unit_.curve, intensity[i]);
+            response[i] = reader_.gain(unit_, sum) / found.reached;
+            if (!(response[i] > response[i - 1] + kEven)) return unit_.curve;
         }
         if (response[3] > 1 - kEven) return unit_.curve;
-        std::array<double, 3> even{};
-        for (std::size_t i = 0; i < even.size(); ++i) {
+        std::array<double, 3> muscles{}, jaw{};
+        const auto thousandths = [](double value) { return std::round(1e3 * value) / 1e3; };
+        for (std::size_t i = 0; i < kIntensities.size(); ++i) {
             std::size_t k = 0;
             while (response[k + 1] < kIntensities[i]) ++k;
             const double part = (kIntensities[i] - response[k]) / (response[k + 1] - response[k]);
-            even[i] = activation[k] + part * (activation[k + 1] - activation[k]);
-            even[i] = std::round(1e3 * even[i]) / 1e3;
+            const double at = intensity[k] + part * (intensity[k + 1] - intensity[k]);
+            muscles[i] = thousandths(unit_.curve.muscles.activation(at));
+            jaw[i] = thousandths(unit_.curve.channels.activation(at));
         }
-        return track::IntensityCurve(even);
+        return {track::IntensityCurve(muscles),
+                moves_channels(unit_) ? track::IntensityCurve(jaw) : unit_.curve.channels};
     }
 
     scene::UnitReader& reader_;
@@ -112,14 +138,15 @@ std::map<std::string, rig::UnitGain> fit_units(face::Face& face, const rig::RigD
     std::vector<const track::ActionUnit*> units;
     for (const track::ActionUnit& unit : rig.facs.units)
         if (!unit.landmark_targets_mm.empty() && !unit.muscles.empty() &&
-            moved_by_muscles_alone(unit))
+            (moved_by_muscles_alone(unit) || moves_channels(unit)))
             units.push_back(&unit);
     scene::UnitReader reader(face, rig);
     std::map<std::string, rig::UnitGain> out;
     std::size_t done = 0;
     for (const track::ActionUnit* unit : units) {
         monitor.report(static_cast<double>(done++) / static_cast<double>(units.size()), unit->id);
-        const rig::UnitGain gain = UnitFit(reader, *unit, rig.channels()).fit();
+        UnitFit fit(reader, *unit, rig.channels());
+        const rig::UnitGain gain = moves_channels(*unit) ? fit.fit_channels() : fit.fit();
         if (gain.reached > kNothing) out[unit->id] = gain;
     }
     return out;

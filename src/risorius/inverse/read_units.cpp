@@ -29,11 +29,15 @@ namespace {
 
 constexpr const char* kNeutralPicture = "pictures/neutral.png";
 
-Json lengths_json(const scene::FaceLengths& lengths) {
-    return json_object({{"lid_aperture_mm", lengths.lid_aperture},
-                        {"mouth_width_mm", lengths.mouth_width},
-                        {"lip_gap_mm", lengths.lip_gap},
-                        {"corner_height_mm", lengths.corner_height}});
+Json measures_json(const scene::FaceMeasures& measures) {
+    return json_object({{"lid_aperture_mm", measures.lid_aperture},
+                        {"mouth_width_mm", measures.mouth_width},
+                        {"lip_gap_mm", measures.lip_gap},
+                        {"corner_height_mm", measures.corner_height},
+                        {"nasolabial_furrow_mm", measures.nasolabial_furrow},
+                        {"glabellar_furrow_mm", measures.glabellar_furrow},
+                        {"forehead_furrow_mm", measures.forehead_furrow},
+                        {"lip_contact_mm2", measures.lip_contact_mm2}});
 }
 
 Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -52,14 +56,15 @@ Json UnitReadings::json() const {
                                     {"name", one.name},
                                     {"gain", one.gain},
                                     {"response", one.response},
-                                    {"change", lengths_json(one.change)},
+                                    {"change", measures_json(one.change)},
+                                    {"uneven_mm", one.uneven_mm},
                                     {"landmarks", marks},
                                     {"in_equilibrium", one.in_equilibrium}}));
     }
     return json_object({{"format", "risorius-unit-readings"},
                         {"version", 1},
                         {"rig", rig},
-                        {"neutral", lengths_json(neutral)},
+                        {"neutral", measures_json(neutral)},
                         {"units", list}});
 }
 
@@ -194,7 +199,7 @@ UnitReadings read_units(const UnitOptions& options, const ProgressMonitor& monit
     if (!options.out.empty()) folder.emplace(options.out);
     face::Face face(files.rig, files.mesh, face::quality_named(options.quality), files.place());
     scene::UnitReader reader(face, files.rig);
-    UnitReadings out{options.rig.generic_string(), reader.lengths(reader.neutral()), {}};
+    UnitReadings out{options.rig.generic_string(), reader.measures(reader.neutral_pose()), {}};
     const double reading = reading_part(options);
     for (const track::ActionUnit* unit : units) {
         monitor.report(

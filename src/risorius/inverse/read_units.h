@@ -17,7 +17,7 @@ namespace risorius::inverse {
 
 struct UnitReadings {
     std::string rig;  ///< file name
-    scene::FaceLengths neutral;
+    scene::FaceMeasures neutral;
     std::vector<scene::UnitReading> units;
     Json json() const;
 };

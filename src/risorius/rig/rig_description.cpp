@@ -227,13 +227,24 @@ std::map<std::string, UnitGain> read_unit_gains(const JsonCursor& json,
     for (const std::string& id : json.keys()) {
         const JsonCursor item = json.at(id);
         if (!facs.find(id)) item.fail("an action unit of the facs table", "\"" + id + "\"");
-        item.allow_keys({"muscles", "activation_at", "reached"});
+        item.allow_keys({"muscles", "activation_at", "channels_at", "reached"});
         UnitGain& gain = out[id];
         gain.muscles = item.at("muscles").number({0.05, 20});
-        gain.curve = track::read_intensity_curve(item.at("activation_at"));
+        gain.curve.muscles = track::read_intensity_curve(item.at("activation_at"));
+        gain.curve.channels = facs.find(id)->curve.channels;
+        if (const auto jaw = item.find("channels_at"))
+            gain.curve.channels = track::read_intensity_curve(*jaw);
         if (const auto reached = item.find("reached")) gain.reached = reached->number();
     }
     return out;
+}
+
+Json unit_gain_json(const UnitGain& gain) {
+    Json json = json_object({{"muscles", gain.muscles},
+                             {"activation_at", gain.curve.muscles.points()},
+                             {"reached", gain.reached}});
+    if (!gain.curve.channels.is_identity()) json["channels_at"] = gain.curve.channels.points();
+    return json;
 }
 
 void apply_unit_gains(const std::map<std::string, UnitGain>& gains, track::FacsTable& facs) {
@@ -384,10 +395,7 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     json["tissue"] = fields_of(rig.tissue);
     json["skin"] = fields_of(rig.skin);
     json["facs"] = table("facs.json");
-    for (const auto& [unit, gain] : rig.unit_gains)
-        json["unit_gains"][unit] = json_object({{"muscles", gain.muscles},
-                                                {"activation_at", gain.curve.points()},
-                                                {"reached", gain.reached}});
+    for (const auto& [unit, gain] : rig.unit_gains) json["unit_gains"][unit] = unit_gain_json(gain);
     json["expressions"] = table("expressions.json");
     json["appearance"] = fields_of(rig.appearance);
     // Rigs that ask for no hair and no lines stay as they were before there were any.

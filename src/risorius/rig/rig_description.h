@@ -128,9 +128,12 @@ struct AppearanceDescription {
 /// What `fit` found for an action unit on this head, so that it moves as far and as evenly as facs.json asks.
 struct UnitGain {
     double muscles = 1;  ///< factor of the weights of its muscles, [0.05, 20]; weights end at 1
-    track::IntensityCurve curve;
+    track::UnitCurves curve;
     double reached = 1;  ///< fraction of the way that facs.json asks for, for reports
 };
+
+/// Returns an entry of "unit_gains".
+Json unit_gain_json(const UnitGain& gain);
 
 /// Everything that a rig file and its tables say.
 struct RigDescription {

@@ -2,6 +2,7 @@
 #include "risorius/scene/unit_reader.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "risorius/rig/expression_drive.h"
 
@@ -24,33 +25,56 @@ double along(const std::vector<LandmarkReading>& landmarks) {
 }  // namespace
 
 UnitReader::UnitReader(face::Face& face, const rig::RigDescription& rig)
-    : face_(face), rig_(rig), points_(face.head(), rig), channels_(rig.channels()) {
+    : face_(face),
+      rig_(rig),
+      points_(face.head(), rig),
+      skin_(face, rig),
+      channels_(rig.channels()) {
     rest_.excitation = Eigen::VectorXd::Zero(channels_.column_count());
     neutral_ = pose(track::Expansion::none(channels_)).pose;
 }
 
-FaceLengths UnitReader::lengths(const Points& vertices) const {
+FaceMeasures FaceMeasures::operator-(const FaceMeasures& other) const {
+    return {lid_aperture - other.lid_aperture,
+            mouth_width - other.mouth_width,
+            lip_gap - other.lip_gap,
+            corner_height - other.corner_height,
+            nasolabial_furrow - other.nasolabial_furrow,
+            glabellar_furrow - other.glabellar_furrow,
+            forehead_furrow - other.forehead_furrow,
+            lip_contact_mm2 - other.lip_contact_mm2};
+}
+
+FaceMeasures UnitReader::measures(const face::FacePose& pose) const {
+    const Points& vertices = pose.vertices;
     const auto y = [&](const char* id) { return points_.at(id, vertices).y(); };
     const auto rest_y = [&](const char* id) { return points_.at(id, neutral()).y(); };
     return {1e3 * points_.distance("ps_l", "pi_l", vertices),
-            1e3 * points_.distance("ch_l", "ch_r", vertices), 1e3 * (y("stos") - y("stoi")),
-            500 * (y("ch_l") - rest_y("ch_l") + y("ch_r") - rest_y("ch_r"))};
+            1e3 * points_.distance("ch_l", "ch_r", vertices),
+            1e3 * (y("stos") - y("stoi")),
+            500 * (y("ch_l") - rest_y("ch_l") + y("ch_r") - rest_y("ch_r")),
+            skin_.furrow_mm(Furrow::kNasolabial, pose),
+            skin_.furrow_mm(Furrow::kGlabellar, pose),
+            skin_.furrow_mm(Furrow::kForehead, pose),
+            skin_.lip_contact_mm2(pose)};
 }
 
 UnitReading UnitReader::read(const track::ActionUnit& unit) {
-    UnitReading out{unit.id, unit.name, targets(unit), 0, {}, {}, true, {}};
+    UnitReading out{unit.id, unit.name, targets(unit), 0, {}, {}, 0, true, {}};
     const track::Expansion whole = track::expand(unit, std::nullopt, channels_);
-    const Pose full = pose(whole);
+    const face::FacePose& from = base(unit);
+    track::Expansion all = others(unit);
+    all.add(whole, 1.0);
+    const Pose full = pose(all);
     out.in_equilibrium = full.in_equilibrium;
     out.pose = full.pose;
     for (LandmarkReading& one : out.landmarks) {
-        one.moved_mm = moved_mm(one.landmark, full.pose.vertices);
+        one.moved_mm = moved_mm(side_of(one.landmark), from.vertices, full.pose.vertices);
         one.gain = one.moved_mm.dot(one.target_mm) / one.target_mm.squaredNorm();
     }
     out.gain = along(out.landmarks);
-    const FaceLengths now = lengths(full.pose.vertices), rest = lengths(neutral());
-    out.change = {now.lid_aperture - rest.lid_aperture, now.mouth_width - rest.mouth_width,
-                  now.lip_gap - rest.lip_gap, now.corner_height - rest.corner_height};
+    out.change = measures(full.pose) - measures(from);
+    out.uneven_mm = uneven_mm(out, from.vertices);
     for (std::size_t i = 0; i < kIntensities.size(); ++i) {
         track::Expansion part = track::Expansion::none(channels_);
         part.add(whole, unit.curve, kIntensities[i]);
@@ -60,11 +84,45 @@ UnitReading UnitReader::read(const track::ActionUnit& unit) {
 }
 
 double UnitReader::gain(const track::ActionUnit& unit, const track::Expansion& sum) {
-    const Pose posed = pose(sum);
+    const face::FacePose& from = base(unit);
+    track::Expansion all = others(unit);
+    all.add(sum, 1.0);
+    const Pose posed = pose(all);
     std::vector<LandmarkReading> landmarks = targets(unit);
     for (LandmarkReading& one : landmarks)
-        one.moved_mm = moved_mm(one.landmark, posed.pose.vertices);
+        one.moved_mm = moved_mm(side_of(one.landmark), from.vertices, posed.pose.vertices);
     return along(landmarks);
+}
+
+track::Expansion UnitReader::others(const track::ActionUnit& unit) const {
+    track::Expansion sum = track::Expansion::none(channels_);
+    for (const track::UnitUse& use : unit.seen_with) {
+        const track::ActionUnit& other = *rig_.facs.find(use.unit);
+        sum.add(track::expand(other, use.side, channels_), other.curve, use.value);
+    }
+    return sum;
+}
+
+const face::FacePose& UnitReader::base(const track::ActionUnit& unit) {
+    if (unit.seen_with.empty()) return neutral_;
+    const auto found = base_.find(unit.id);
+    if (found != base_.end()) return found->second;
+    return base_[unit.id] = pose(others(unit)).pose;
+}
+
+double UnitReader::uneven_mm(const UnitReading& reading, const Points& from) const {
+    double most = 0;
+    for (const LandmarkReading& one : reading.landmarks) {
+        const std::string left = side_of(one.landmark);
+        if (left == one.landmark) {
+            most = std::max(most, std::abs(one.moved_mm.x()));
+            continue;
+        }
+        Vec3 right = moved_mm(one.landmark + "_r", from, reading.pose.vertices);
+        right.x() = -right.x();
+        most = std::max(most, (right - one.moved_mm).norm());
+    }
+    return most;
 }
 
 UnitReader::Pose UnitReader::pose(const track::Expansion& sum) {
@@ -83,9 +141,8 @@ std::vector<LandmarkReading> UnitReader::targets(const track::ActionUnit& unit) 
     return out;
 }
 
-Vec3 UnitReader::moved_mm(const std::string& landmark, const Points& vertices) const {
-    const std::string id = side_of(landmark);
-    return 1e3 * (points_.at(id, vertices) - points_.at(id, neutral()));
+Vec3 UnitReader::moved_mm(const std::string& landmark, const Points& from, const Points& to) const {
+    return 1e3 * (points_.at(landmark, to) - points_.at(landmark, from));
 }
 
 // The name of a landmark of the table with its side, the left one.

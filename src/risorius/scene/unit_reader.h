@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// \file
 /// Reads the action units of a face as a coder of FACS measures them: how far the landmarks of a unit move, compared with the targets of
-/// facs.json, how evenly they move with the intensity, and what happens to the eye opening and the mouth.
+/// facs.json, how evenly they move with the intensity, and what happens to the eye opening, the mouth and the furrows of the skin.
 ///
-/// Every pose is an equilibrium of the left and the right unit together. The targets are those of the average head. They are scaled to
+/// Every pose is an equilibrium of the left and the right unit together. A unit that is seen with others only (ActionUnit::seen_with) is
+/// added to them, and read from their pose. The targets are those of the average head. They are scaled to
 /// the head region by region: eyes and brows by the width of the eye fissure, mouth by the width of the mouth, everything else by the
 /// height of the face from nasion to chin.
 ///
@@ -12,12 +13,14 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "risorius/core/types.h"
 #include "risorius/face/face.h"
 #include "risorius/rig/rig_description.h"
+#include "risorius/scene/detail/skin_readings.h"
 #include "risorius/scene/landmark_points.h"
 #include "risorius/track/channels.h"
 #include "risorius/track/facs.h"
@@ -31,12 +34,18 @@ struct LandmarkReading {
     double gain = 0;           ///< along the target
 };
 
-/// Lengths that coders look at; left eye. All in mm.
-struct FaceLengths {
-    double lid_aperture = 0;   ///< between the middles of the lid margins
-    double mouth_width = 0;    ///< between the corners
-    double lip_gap = 0;        ///< between the lips in the middle; 0 or less: closed
-    double corner_height = 0;  ///< mean of both corners, above that of the neutral face
+/// What coders look at besides landmarks; left eye and left nasolabial fold. Lengths in mm.
+struct FaceMeasures {
+    double lid_aperture = 0;       ///< between the middles of the lid margins
+    double mouth_width = 0;        ///< between the corners
+    double lip_gap = 0;            ///< between the lips in the middle; 0 or less: closed
+    double corner_height = 0;      ///< mean of both corners, above that of the neutral face
+    double nasolabial_furrow = 0;  ///< depths, see detail/skin_readings.h
+    double glabellar_furrow = 0;
+    double forehead_furrow = 0;
+    double lip_contact_mm2 = 0;
+
+    FaceMeasures operator-(const FaceMeasures& other) const;
 };
 
 struct UnitReading {
@@ -45,7 +54,9 @@ struct UnitReading {
     std::vector<LandmarkReading> landmarks;
     double gain = 0;
     std::array<double, 3> response{};
-    FaceLengths change;  ///< from the neutral face, at intensity 1
+    FaceMeasures change;  ///< at intensity 1, from the neutral face or the units it is seen with
+    double uneven_mm =
+        0;  ///< largest difference of a landmark from the mirror image of its partner, or of a middle one from the middle
     bool in_equilibrium = true;
     face::FacePose pose;  ///< at intensity 1
 };
@@ -58,7 +69,7 @@ class UnitReader {
 
     const Points& neutral() const { return neutral_.vertices; }  ///< V x 3, m
     const face::FacePose& neutral_pose() const { return neutral_; }
-    FaceLengths lengths(const Points& vertices) const;
+    FaceMeasures measures(const face::FacePose& pose) const;
     /// Reads the unit at full intensity and at a quarter, a half and three quarters. It needs landmark targets.
     UnitReading read(const track::ActionUnit& unit);
     /// Returns the gain of `sum` along the targets of `unit`.
@@ -70,8 +81,11 @@ class UnitReader {
         bool in_equilibrium;
     };
     Pose pose(const track::Expansion& sum);
+    track::Expansion others(const track::ActionUnit& unit) const;
+    const face::FacePose& base(const track::ActionUnit& unit);
     std::vector<LandmarkReading> targets(const track::ActionUnit& unit) const;
-    Vec3 moved_mm(const std::string& landmark, const Points& vertices) const;
+    Vec3 moved_mm(const std::string& landmark, const Points& from, const Points& to) const;
+    double uneven_mm(const UnitReading& reading, const Points& from) const;
     std::string side_of(const std::string& landmark) const;
     const rig::AtlasLandmark& atlas(const std::string& id) const;
     double ratio(const char* a, const char* b) const;
@@ -80,9 +94,12 @@ class UnitReader {
     face::Face& face_;
     const rig::RigDescription& rig_;
     LandmarkPoints points_;
+    SkinReader skin_;
     track::ChannelTable channels_;
     track::Drive rest_;
     face::FacePose neutral_;
+    std::map<std::string, face::FacePose>
+        base_;  ///< of the units that a unit is seen with, by its id
 };
 
 }  // namespace risorius::scene

@@ -53,6 +53,12 @@ enum class Kinematic {
 inline constexpr int kKinematicCount = static_cast<int>(Kinematic::kCount);
 using KinematicValues = std::array<double, kKinematicCount>;
 
+/// Returns whether an action unit moves the channel along a curve of its own: those of the jaw and of the pressure in the mouth.
+inline bool has_curve(Kinematic k) {
+    return k == Kinematic::kJawOpen || k == Kinematic::kJawForward || k == Kinematic::kJawSide ||
+           k == Kinematic::kMouthPressure;
+}
+
 /// Name of a kinematic channel in scripts, and its limits in its unit. The limits of gaze and head are norms of adults.
 struct KinematicChannel {
     std::string_view name;  ///< with its side, "gaze_yaw_deg.l"

@@ -78,7 +78,7 @@ ActionUnit read_unit(const JsonCursor& json, const std::string& id, const FacsRa
                      const ChannelTable& channels) {
     json.allow_keys({"name", "sided", "muscles", "jaw", "mouth_pressure_pa", "tongue_protrusion_mm",
                      "head", "eyes", "unsupported", "landmark_targets_mm", "activation_at",
-                     "cues"});
+                     "channels_at", "seen_with", "cues"});
     ActionUnit unit;
     unit.id = id;
     unit.name = json.at("name").string();
@@ -95,7 +95,8 @@ ActionUnit read_unit(const JsonCursor& json, const std::string& id, const FacsRa
             v->number({0, ranges.tongue_out_mm}) / ranges.tongue_out_mm;
     if (const auto v = json.find("head")) read_head(*v, unit.kinematic);
     if (const auto v = json.find("eyes")) read_eyes(*v, unit.kinematic);
-    if (const auto v = json.find("activation_at")) unit.curve = read_intensity_curve(*v);
+    if (const auto v = json.find("activation_at")) unit.curve.muscles = read_intensity_curve(*v);
+    if (const auto v = json.find("channels_at")) unit.curve.channels = read_intensity_curve(*v);
     if (const auto v = json.find("unsupported")) unit.unsupported = v->string();
     if (const auto v = json.find("cues")) unit.cues = v->string();
     if (const auto v = json.find("landmark_targets_mm"))
@@ -220,6 +221,13 @@ FacsTable read_facs(const JsonCursor& json, const ChannelTable& channels) {
     const JsonCursor units = json.at("action_units");
     for (const std::string& id : units.keys())
         facs.units.push_back(read_unit(units.at(id), id, facs.ranges, channels));
+    for (ActionUnit& unit : facs.units)
+        if (const auto others = units.at(unit.id).find("seen_with"))
+            for (const std::string& name : others->keys()) {
+                UnitUse use = unit_named(others->at(name), name, facs);
+                use.value = others->at(name).number({0, 1});
+                unit.seen_with.push_back(std::move(use));
+            }
     if (const auto combinations = json.find("combinations"))
         for (const JsonCursor& list : combinations->items()) {
             facs.combinations.emplace_back();
@@ -331,10 +339,12 @@ void Expansion::add(const Expansion& part, double weight) {
     for (std::size_t k = 0; k < kinematic.size(); ++k) kinematic[k] += weight * part.kinematic[k];
 }
 
-void Expansion::add(const Expansion& part, const IntensityCurve& curve, double intensity) {
-    excitation += curve.activation(intensity) * part.excitation;
+void Expansion::add(const Expansion& part, const UnitCurves& curve, double intensity) {
+    excitation += curve.muscles.activation(intensity) * part.excitation;
+    const double jaw = curve.channels.activation(intensity);
     for (std::size_t k = 0; k < kinematic.size(); ++k)
-        kinematic[k] += intensity * part.kinematic[k];
+        kinematic[k] +=
+            (has_curve(static_cast<Kinematic>(k)) ? jaw : intensity) * part.kinematic[k];
 }
 
 Expansion expand(const MuscleFraction& fraction, const ChannelTable& channels) {

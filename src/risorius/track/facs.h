@@ -34,6 +34,13 @@ struct JawFraction {
     std::optional<double> lateral_mm;  ///< > 0 to the subject's left
 };
 
+/// An action unit and its intensity.
+struct UnitUse {
+    std::string unit;  ///< id in FacsTable::units
+    std::optional<Side> side;
+    double value = 1;  ///< intensity, [0, 1]
+};
+
 /// A row of the table of units.
 struct ActionUnit {
     std::string id;      ///< "AU12", "AU30.l"
@@ -41,18 +48,13 @@ struct ActionUnit {
     bool sided = false;  ///< may be restricted to a side with .l or .r
     std::vector<MuscleFraction> muscles;
     KinematicValues kinematic{};
-    IntensityCurve curve;     ///< from the intensity to the activation of its muscles
+    UnitCurves curve;  ///< from the intensity to the activation of its muscles and its channels
     std::string unsupported;  ///< why this face cannot show the unit; empty when it can
     std::string cues;         ///< what a coder looks for, in sentences; empty in older tables
     /// Displacements that the unit should cause: a landmark on the left side or the midline, and its displacement.
     std::vector<std::pair<std::string, Vec3>> landmark_targets_mm;
-};
-
-/// An action unit and its intensity.
-struct UnitUse {
-    std::string unit;  ///< id in FacsTable::units
-    std::optional<Side> side;
-    double value = 1;  ///< intensity, [0, 1]
+    /// Units without which it is not seen, as AU8 is not between closed lips. The targets begin at their pose.
+    std::vector<UnitUse> seen_with;
 };
 
 /// One of the 52 blend shapes of ARKit face tracking, or a mouth shape of speech. Muscles, jaw and tongue given here replace
@@ -140,13 +142,13 @@ struct Expansion {
 
     static Expansion none(const ChannelTable& channels);
     void add(const Expansion& part, double weight);
-    /// Adds a part at an intensity: muscles by the activation of the curve, channels of jaw, eyes and head by the intensity.
-    void add(const Expansion& part, const IntensityCurve& curve, double intensity);
+    /// Adds a part at an intensity: muscles, jaw and pressure by their curves, the other channels by the intensity.
+    void add(const Expansion& part, const UnitCurves& curve, double intensity);
 };
 
 /// The curve of muscles that an expression adds to its units: the mean response of the units of the standard table.
-inline const IntensityCurve& curve_of_added_muscles() {
-    static const IntensityCurve curve({0.125, 0.29, 0.54});
+inline const UnitCurves& curve_of_added_muscles() {
+    static const UnitCurves curve{IntensityCurve({0.125, 0.29, 0.54}), {}};
     return curve;
 }
 

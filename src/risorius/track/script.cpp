@@ -318,7 +318,7 @@ class Reader {
     }
 
     /// What a shape of ARKit stands for. A shape of one unit has the curve of that unit, others the mean of the units.
-    Expansion shape_drives(const ArkitShape& shape, IntensityCurve& curve) const {
+    Expansion shape_drives(const ArkitShape& shape, UnitCurves& curve) const {
         const bool is_unit = shape.units.size() == 1 && shape.muscles.empty();
         curve = is_unit ? facs_.find(shape.units.front().unit)->curve : curve_of_added_muscles();
         return expand(shape, facs_, channels_);
@@ -327,7 +327,7 @@ class Reader {
     /// Also returns the range of the channel's values, whether it may set activation (all but kinematic channels), and the curve
     /// of an action unit or a shape.
     Expansion resolve(const JsonCursor& json, const std::string& name, Range& range,
-                      bool& has_muscles, IntensityCurve& curve) const {
+                      bool& has_muscles, UnitCurves& curve) const {
         const std::vector<Kinematic> kinematic = kinematic_named(name);
         if (!kinematic.empty()) {
             Expansion drives = Expansion::none(channels_);

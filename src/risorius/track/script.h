@@ -76,14 +76,14 @@ struct ChannelTrack {
     Interpolation interpolation = Interpolation::kSmooth;
     bool activation = false;  ///< sets activation directly, bypassing activation dynamics
     Expansion drives;         ///< contribution of the channel at value 1
-    IntensityCurve curve{};   ///< of an action unit or an ARKit shape
+    UnitCurves curve{};       ///< of an action unit or an ARKit shape
 };
 
 /// An expression rises along a minimum-jerk curve, is held and falls again. Every unit has its own delay within the onset.
 struct ExpressionEvent {
     struct Part {
         Expansion drives;  ///< at full intensity
-        IntensityCurve curve;
+        UnitCurves curve;
         double intensity = 1;  ///< at the apex
         double delay = 0;      ///< fraction of the onset
         UnitUse

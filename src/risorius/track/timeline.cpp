@@ -41,7 +41,7 @@ Timeline::Timeline(const ScriptDescription& script, const ChannelTable& channels
             sources_.push_back({std::move(curve), channel.drives, channel.curve});
             continue;
         }
-        DirectActivation direct{curve, channel.curve, {}};
+        DirectActivation direct{curve, channel.curve.muscles, {}};
         for (int column = 0; column < channel.drives.excitation.size(); ++column)
             if (const double share = channel.drives.excitation[column]; share != 0)
                 direct.columns.emplace_back(column, share);
@@ -50,7 +50,7 @@ Timeline::Timeline(const ScriptDescription& script, const ChannelTable& channels
         Expansion placed = Expansion::none(channels);
         placed.kinematic = channel.drives.kinematic;
         if (placed.kinematic != KinematicValues{})
-            sources_.push_back({std::move(curve), std::move(placed), {}});
+            sources_.push_back({std::move(curve), std::move(placed), {{}, channel.curve.channels}});
     }
 }
 

@@ -43,7 +43,7 @@ class Timeline {
     struct Source {
         Curve curve;
         Expansion drives;
-        IntensityCurve intensity;
+        UnitCurves intensity;
     };
     struct DirectActivation {
         Curve curve;

@@ -48,7 +48,7 @@ face::DriveAt drive_of(const KitClip& clip, const rig::RigDescription& rig,
     course.onset_s = course.hold_s = course.offset_s = kPhase_s;
     struct Part {
         track::Expansion whole;
-        track::IntensityCurve curve;
+        track::UnitCurves curve;
     };
     std::vector<Part> parts;
     for (const std::string& id : clip.units) {

@@ -28,8 +28,10 @@ std::string number(const char* format, double value) {
 
 void write_numbers(report::HtmlWriter& html, const scene::UnitReading& one) {
     html.open("div", {{"class", "scroll"}}).open("table").open("tr");
-    for (const char* head : {"gain", "at .25", "at .5", "at .75", "eye, mm", "mouth width, mm",
-                             "lip gap, mm", "corners, mm"})
+    for (const char* head :
+         {"gain", "at .25", "at .5", "at .75", "eye, mm", "mouth width, mm", "lip gap, mm",
+          "corners, mm", "nasolabial furrow, mm", "glabellar furrow, mm", "forehead furrow, mm",
+          "lip contact, mm²", "uneven, mm"})
         html.element("th", head, {{"class", "number"}});
     html.close().open("tr");
     const auto cell = [&](const char* format, double value) {
@@ -37,9 +39,12 @@ void write_numbers(report::HtmlWriter& html, const scene::UnitReading& one) {
     };
     cell("%.2f", one.gain);
     for (const double share : one.response) cell("%.2f", share);
-    for (const double change : {one.change.lid_aperture, one.change.mouth_width, one.change.lip_gap,
-                                one.change.corner_height})
+    for (const double change :
+         {one.change.lid_aperture, one.change.mouth_width, one.change.lip_gap,
+          one.change.corner_height, one.change.nasolabial_furrow, one.change.glabellar_furrow,
+          one.change.forehead_furrow, one.change.lip_contact_mm2})
         cell("%+.1f", std::abs(change) < 0.05 ? 0.0 : change);
+    cell("%.1f", one.uneven_mm);
     html.close().close().close();
     std::string marks = "Landmarks, gain along the target:";
     for (const scene::LandmarkReading& mark : one.landmarks)
@@ -73,10 +78,15 @@ std::string unit_page(const UnitReadings& readings, const track::FacsTable& facs
                  "the skin moves. Look for the cues, and tick whether the unit is right, weak or "
                  "wrong. A gain of 1 means that the landmarks go as far as the table of the rig "
                  "asks; at intensity .25, .5 and .75 the same parts of the way should be seen.");
-    html.element("p",
-                 "Neutral: eye opening " + number("%.1f", readings.neutral.lid_aperture) +
-                     " mm, mouth " + number("%.1f", readings.neutral.mouth_width) + " mm wide.",
-                 {{"class", "soft"}});
+    html.element(
+        "p",
+        "Neutral: eye opening " + number("%.1f", readings.neutral.lid_aperture) + " mm, mouth " +
+            number("%.1f", readings.neutral.mouth_width) + " mm wide, lips touch over " +
+            number("%.0f", readings.neutral.lip_contact_mm2) +
+            " mm². Eye, mouth, furrows and contact of a unit are changes from the neutral "
+            "face, or from the units that it is seen with. Uneven is the largest difference "
+            "between a landmark and the mirror image of its partner.",
+        {{"class", "soft"}});
     html.open("p");
     html.element("button", "Save the answers as a table", {{"type", "button"}, {"id", "save"}});
     html.text(" ").element("span", "", {{"id", "count"}, {"aria-live", "polite"}}).close();
