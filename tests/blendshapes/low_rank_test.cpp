@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace risorius::blendshapes {
 namespace {
 
@@ -32,13 +34,13 @@ Points played(const LowRank& made, const Eigen::VectorXd& weights) {
     return out;
 }
 
-TEST(LowRank, FieldsThatAreMultiplesOfOneAnotherTakeOneCorrectiveASide) {
+TEST(LowRank, FieldsThatAreMultiplesOfOneAnotherTakeOneCorrectiveASideAndSign) {
     const std::vector<DriverField> fields{driver({0, 1}, 0, 20, 1e-3), driver({0, 2}, 0, 20, -2e-3),
                                           driver({1, 2}, 0, 20, 3e-3)};
     const LowRank made = low_rank(fields, {}, kRest, kArea, {.fade = kNoFade});
-    ASSERT_EQ(made.correctives.size(), 2u);
+    ASSERT_EQ(made.correctives.size(), 4u);
     EXPECT_EQ(made.drivers.size(), 3u);
-    EXPECT_EQ(made.bytes, 15 * 20);
+    EXPECT_EQ(made.bytes, 2 * 15 * 20);
     for (const Corrective& one : made.correctives)
         for (const int v : one.shape.vertex)
             EXPECT_EQ(kRest(v, 0) > 0, one.name.starts_with("correctiveLeft")) << one.name;
@@ -74,6 +76,61 @@ TEST(LowRank, WhatIsThereAlreadyIsRightIsLeftAloneAndWhatFramesLackIsLearnt) {
         low_rank(found, {elsewhere}, kRest, kArea, {.ridge_weight = 0.25, .fade = kNoFade}), whole);
     EXPECT_NEAR(learnt(15, 2), 1e-3, 1e-12);
     EXPECT_NEAR(learnt(0, 1), 0.5e-3, 1e-12);
+}
+
+TEST(LowRank, WeightsStayWithinZeroAndOne) {
+    // Frames in which the first field is needed with either sign
+    const std::vector<DriverField> fields{driver({0, 1}, 0, 20, 1e-3),
+                                          driver({0, 2}, 0, 20, -2e-3)};
+    std::vector<PlayedFrame> frames;
+    for (const Eigen::Vector3d& weights :
+         {Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(1, 0, 1), Eigen::Vector3d(1, 1, 1)})
+        frames.push_back({weights, fields[0].driver.value(weights) * fields[0].field +
+                                       fields[1].driver.value(weights) * fields[1].field});
+    const LowRank made = low_rank(fields, frames, kRest, kArea, {.fade = kNoFade});
+    BlendShapeRig rig;
+    rig.drivers = made.drivers;
+    rig.correctives = made.correctives;
+    for (const PlayedFrame& frame : frames) {
+        const Eigen::VectorXd values = rig.driver_values(frame.weights);
+        for (const Corrective& one : made.correctives)
+            EXPECT_LE(one.of_drivers.dot(values), 1 + 1e-12) << one.name;
+        EXPECT_LT((played(made, frame.weights) - frame.left).cwiseAbs().maxCoeff(), 1e-12);
+    }
+    EXPECT_TRUE(std::any_of(made.correctives.begin(), made.correctives.end(),
+                            [](const auto& one) { return one.name == "correctiveLeft1_minus"; }));
+}
+
+TEST(OneOfEach, KeepsThoseThatMatterMostUnderTheirNames) {
+    std::vector<DriverField> fields{driver({0, 1}, 0, 4, 1e-3), driver({0, 2}, 5, 4, 3e-3),
+                                    driver({1, 2}, 9, 4, 2e-3)};
+    fields[0].driver.name = "a*b";
+    fields[1].driver.name = "a*c";
+    fields[2].driver.name = "b*c";
+    const LowRank made =
+        one_of_each(fields, {}, kRest, kArea, {.fade = kNoFade, .most_of_a_side = 1});
+    ASSERT_EQ(made.correctives.size(), 2u);
+    EXPECT_EQ(made.drivers.size(), 2u);
+    EXPECT_EQ(made.correctives[0].name, "a_c");
+    EXPECT_EQ(made.correctives[1].name, "b_c");
+    EXPECT_EQ(made.correctives[1].follows(), 1);
+    EXPECT_EQ(made.bytes, 15 * 8);
+    const Eigen::Vector3d weights(0.5, 1, 0.25);
+    EXPECT_LT((played(made, weights) - 0.125 * fields[1].field - 0.25 * fields[2].field)
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-12);
+}
+
+TEST(OneOfEach, LearnsFromFramesAndKeepsToItsBudget) {
+    const Eigen::Vector2d whole(1, 1);
+    const std::vector<DriverField> found{driver({0, 1}, 0, 5, 1e-3)};
+    const PlayedFrame twice{whole, 2 * found[0].field};
+    // d + k (r - k d) / (k^2 + p), with k = 1, r = 2 d and p = 1
+    const LowRank made =
+        one_of_each(found, {twice}, kRest, kArea, {.ridge_weight = 1, .fade = kNoFade});
+    EXPECT_LT((played(made, whole) - 1.5 * found[0].field).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_TRUE(one_of_each(found, {}, kRest, kArea, {.budget_bytes = 0}).correctives.empty());
 }
 
 TEST(LowRank, KeepsToItsBudgetByLeavingOutTheFiner) {

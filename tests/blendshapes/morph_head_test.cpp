@@ -6,6 +6,7 @@
 
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "paths.h"
@@ -130,6 +131,37 @@ TEST_F(MorphHead, EyesTurnAboutTheirCentres) {
                 EXPECT_LT((centre + motions[0].turn[1] * from - posed.row(v).transpose()).norm(),
                           1e-9);
             }
+}
+
+TEST_F(MorphHead, TheLowerTeethTellTheAxisOfTheJaw) {
+    io::MorphModel model = *model_;
+    const auto extras = [&] {
+        return model.nodes[static_cast<std::size_t>(node("TeethLower"))].extras;
+    };
+    describe_jaw(model);
+    EXPECT_TRUE(extras().is_null());  // no shape opens it
+    // A turn of 0.3 rad about an axis that leans a little, with a slide of 2 mm along it
+    const Vec3 pivot(0.001, -0.0137, 0.0038), axis = Vec3(1, 0.1, 0).normalized();
+    const Rigid turn = Eigen::Translation3d(pivot + 0.002 * axis) * Eigen::AngleAxisd(0.3, axis) *
+                       Eigen::Translation3d(-pivot);
+    io::MorphTarget& open = model.targets.emplace_back();
+    open.name = "jawOpen";
+    open.delta.resize(model.vertices.rows(), 3);
+    for (long v = 0; v < model.vertices.rows(); ++v) {
+        const Vec3 at = model.vertices.row(v);
+        open.vertex.push_back(static_cast<int>(v));
+        open.delta.row(v) = (turn * at - at).transpose();
+    }
+    describe_jaw(model);
+    const Json jaw = extras().at("jaw");
+    const auto vector = [&](const char* key) {
+        return Vec3(jaw.at(key).at(0).get<double>(), jaw.at(key).at(1).get<double>(),
+                    jaw.at(key).at(2).get<double>());
+    };
+    EXPECT_LT((vector("axis") - axis).norm(), 1e-9);
+    EXPECT_LT((vector("pivot_m") - pivot).cross(axis).norm(), 1e-9);  // a point of the axis
+    EXPECT_NEAR(jaw.at("angle_deg").get<double>(), 0.3 * 180 / 3.14159265358979, 1e-9);
+    EXPECT_NEAR(jaw.at("slide_m").get<double>(), 0.002, 1e-9);
 }
 
 TEST_F(MorphHead, TheMouthIsDarkInsideAndBrightAtTheLips) {

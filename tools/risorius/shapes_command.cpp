@@ -81,6 +81,32 @@ void run(ShapesArguments& arguments) {
         print(report, arguments.options);
 }
 
+void add_correctives(CLI::App& command, blendshapes::ShapesOptions& options) {
+    command.add_flag("!--no-correctives", options.correctives,
+                     "Make only shapes, without correctives for the errors of their sums. "
+                     "risorius render --shapes cannot play such a file");
+    command.add_flag("--named-correctives", options.named_correctives,
+                     "Give each pair of shapes a corrective of its own, jawOpen_mouthSmileLeft, as "
+                     "artists edit them, and each quarter of the way of a shape. At the same size "
+                     "they repair less than the correctives without this option");
+    command
+        .add_option(
+            "--pairs", options.pairs,
+            "Maximum number of pairs of shapes to simulate together. Chosen first: pairs that move "
+            "the same skin most, or that occur together in the script. Default: 48; for facs 160")
+        ->check(CLI::Range(0, 10000));
+    command.add_option_function<double>(
+        "--corrective-tolerance-mm",
+        [&options](double mm) { options.corrective_tolerance_m = 1e-3 * mm; },
+        "Sums of shapes whose maximum error is below this number of mm get no corrective. Default: "
+        "0.3");
+    command.add_option_function<double>(
+        "--corrective-megabytes",
+        [&options](double mb) { options.corrective_bytes = static_cast<long>(1e6 * mb); },
+        "Maximum size of the correctives in shapes.glb: with less space they keep less detail. "
+        "Default: 0.8; for facs 4");
+}
+
 }  // namespace
 
 void add_shapes(CLI::App& app) {
@@ -109,9 +135,11 @@ void add_shapes(CLI::App& app) {
     command
         ->add_option(
             "--formats", options.formats,
-            "Any of glb, obj, table (shapes.json with shapes.f32) and, with --script, csv "
+            "Any of glb, obj, table (shapes.json with shapes.f32), usda (blend shapes of UsdSkel) "
+            "and, "
+            "with --script, csv "
             "(live_link.csv) and cache, pc2 or mdd (vertices of every frame), separated by "
-            "commas. Default: all but these three")
+            "commas. Default: glb, obj, table and csv")
         ->delimiter(',')
         ->allow_extra_args(false);
     command
@@ -121,25 +149,10 @@ void add_shapes(CLI::App& app) {
     command->add_option("--script", options.script,
                         "A script to convert to weights: an animation in shapes.glb, live_link.csv "
                         "(for arkit52) and, with --formats cache, the vertices in every frame");
-    command->add_flag("!--no-correctives", options.correctives,
-                      "Make only shapes, without correctives for the errors of their sums. "
-                      "risorius render --shapes cannot play such a file");
-    command
-        ->add_option(
-            "--pairs", options.pairs,
-            "Maximum number of pairs of shapes to simulate together. Chosen first: pairs that move "
-            "the same skin most, or that occur together in the script. Default: 48; for facs 160")
-        ->check(CLI::Range(0, 10000));
-    command->add_option_function<double>(
-        "--corrective-tolerance-mm",
-        [&options](double mm) { options.corrective_tolerance_m = 1e-3 * mm; },
-        "Sums of shapes whose maximum error is below this number of mm get no corrective. Default: "
-        "0.3");
-    command->add_option_function<double>(
-        "--corrective-megabytes",
-        [&options](double mb) { options.corrective_bytes = static_cast<long>(1e6 * mb); },
-        "Maximum size of the correctives in shapes.glb: with less space they keep less detail. "
-        "Default: 0.8; for facs 2");
+    command->add_flag("--head-turns", options.head_turns,
+                      "Let cache, pc2 and mdd have the motion of head and eyes too, as in a video. "
+                      "Without it, they have what shapes.glb does with its shapes alone");
+    add_correctives(*command, options);
     command
         ->add_option("--test-frames", options.test_frames,
                      "Number of frames of random weights, and of the script, for which blend "

@@ -13,6 +13,7 @@
 #include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/face/diagnostics.h"
+#include "risorius/io/write_usda.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/atomic_folder.h"
 #include "risorius/report/stopwatch.h"
@@ -55,6 +56,7 @@ Json worst_of(const MadeShapes& shapes) {
     max("lip_depth_mm", [&](C c) { return mm(c.lip_depth_m); });
     max("eye_depth_mm", [&](C c) { return mm(c.eye_depth_m); });
     max("bone_depth_mm", [&](C c) { return mm(c.bone_depth_m); });
+    max("rigid_part_mm", [&](C c) { return mm(c.rigid_part_m); });
     max("lid_gap_mm", [&](C c) { return mm(c.lid_gap_m); });
     max("asymmetry_mm", [&](C c) { return mm(c.asymmetry_m); });
     max("largest_stretch", [](C c) { return Maybe(c.stretch.max); });
@@ -105,6 +107,28 @@ std::vector<long> some_frames(long all, int wanted) {
 bool wants(const ShapesOptions& options, const char* format) {
     return options.formats.empty() || std::find(options.formats.begin(), options.formats.end(),
                                                 format) != options.formats.end();
+}
+
+// Writes the head for other programs, as glTF and as USD. Returns the names of the files.
+std::vector<std::string> write_models(const scene::RigFiles& files, const face::Face& face,
+                                      const ShapesOptions& options, const ShapesReport& report,
+                                      const std::filesystem::path& folder) {
+    // Text is large, so it is written only on request.
+    const bool glb = wants(options, "glb"),
+               usda = !options.formats.empty() && wants(options, "usda");
+    if (!glb && !usda) return {};
+    io::MorphModel model =
+        morph_model(files, face, report.shapes, report.set, report.correctives.rig,
+                    report.animation ? &*report.animation : nullptr, options.texture_px);
+    model.whole_numbers = options.compact;
+    std::vector<std::string> written;
+    const auto write = [&](const char* name, const std::string& bytes) {
+        report::write_text(folder / name, bytes);
+        written.emplace_back(name);
+    };
+    if (glb) write("shapes.glb", io::glb_bytes(model));
+    if (usda) write("shapes.usda", io::usda_text(model));
+    return written;
 }
 
 // The drive without motion of the head, which blend shapes do not have.
@@ -185,7 +209,7 @@ std::vector<TrackError> compare_tracks(const scene::RigFiles& files, const Shape
 
 const std::vector<std::string>& shape_formats() {
     static const std::vector<std::string> kNames{"glb",   "obj", "table", "csv",
-                                                 "cache", "pc2", "mdd"};
+                                                 "cache", "pc2", "mdd",   "usda"};
     return kNames;
 }
 
@@ -213,6 +237,7 @@ Json ShapesReport::json() const {
                         {"limits", json_object({{"volume_change", limits.volume_ratio},
                                                 {"penetration_mm", 1e3 * limits.penetration_m},
                                                 {"lid_gap_mm", 1e3 * limits.lid_gap_m},
+                                                {"rigid_part_mm", 1e3 * limits.rigid_part_m},
                                                 {"asymmetry_mm", 1e3 * limits.asymmetry_m}})},
                         {"beyond_limits", complaints()},
                         {"worst", worst_of(shapes)},
@@ -249,6 +274,7 @@ ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& mo
     }
     report.shapes = make_shapes(files, set, solver, monitor.subrange(0, solved));
     CorrectiveOptions corrective = correctives_of_set(set.name);
+    corrective.named = options.named_correctives;
     corrective.pairs = options.pairs.value_or(corrective.pairs);
     corrective.tolerance_m = options.corrective_tolerance_m.value_or(corrective.tolerance_m);
     corrective.budget_bytes = options.corrective_bytes.value_or(corrective.budget_bytes);
@@ -281,14 +307,7 @@ ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& mo
             report.sizes.emplace_back(
                 name, static_cast<long>(std::filesystem::file_size(folder.partial() / name)));
     };
-    if (wants(options, "glb")) {
-        io::MorphModel model =
-            morph_model(files, solver.face(), report.shapes, set.name, report.correctives.rig,
-                        report.animation ? &*report.animation : nullptr, options.texture_px);
-        model.whole_numbers = options.compact;
-        report::write_text(folder.partial() / "shapes.glb", io::glb_bytes(model));
-        keep({"shapes.glb"});
-    }
+    keep(write_models(files, solver.face(), options, report, folder.partial()));
     if (report.animation && set.name == "arkit52" && wants(options, "csv")) {
         report::write_text(folder.partial() / "live_link.csv", live_link_table(*report.animation));
         keep({"live_link.csv"});
@@ -296,8 +315,8 @@ ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& mo
     // Caches are large, so they are written only on request.
     if (report.animation && !options.formats.empty() &&
         (wants(options, "cache") || wants(options, "pc2") || wants(options, "mdd")))
-        keep(write_vertex_cache(files, head, report.correctives.rig, *report.animation,
-                                options.formats, folder.partial()));
+        keep(write_vertex_cache(files, solver.face(), report.correctives.rig, *report.animation,
+                                options.formats, options.head_turns, folder.partial()));
     if (wants(options, "table"))
         keep(write_shape_table(files, head, report.shapes, folder.partial()));
     if (wants(options, "obj")) keep(write_shape_objs(files, head, report.shapes, folder.partial()));

@@ -31,6 +31,7 @@ struct ShapesOptions {
     int texture_px = 1024;
     bool pictures = true;
     bool correctives = true;
+    bool named_correctives = false;  ///< CorrectiveOptions::named
     /// Values that replace those of correctives_of_set().
     std::optional<int> pairs = {};
     std::optional<double> corrective_tolerance_m = {};
@@ -38,10 +39,11 @@ struct ShapesOptions {
     /// Frames of each track on which the blend shapes are compared with the simulation; 0: none
     int test_frames = 24;
     std::filesystem::path script = {};  ///< script that is converted to weights; empty: none
+    bool head_turns = false;            ///< true: caches have the motion of head and eyes too
     int threads = 0;  ///< 0: as many as the machine has; results do not depend on it
 };
 
-/// The names of the formats: "glb", "obj", "table", and for a script also "csv" and "cache".
+/// The names of the formats: "glb", "obj", "table", "usda", and for a script also "csv", "cache", "pc2" and "mdd".
 const std::vector<std::string>& shape_formats();
 
 /// What was made, and how well it agrees with the simulation.

@@ -76,9 +76,11 @@ ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const scene:
         return indices;
     };
     const std::vector<JsonCursor> drivers = listed("terms");
+    std::vector<std::string> terms;
     for (const JsonCursor& json : drivers) {
         blendshapes::Driver& driver = out.rig.drivers.emplace_back();
         driver.name = json.at("name").string();
+        terms.push_back(driver.name);
         driver.shapes = indices_of(json.at("drivers"));
         if (driver.shapes.empty()) json.at("drivers").fail("at least one shape");
         if (driver.shapes.size() == 1) driver.part = json.at("part").integer(1, 3);
@@ -90,6 +92,13 @@ ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const scene:
         one.name = correctives[c].at("name").string();
         if (one.name != target.name)
             correctives[c].at("name").fail("the morph target \"" + target.name + "\"");
+        one.shape = {target.vertex, target.delta};
+        if (const auto term = correctives[c].find("term")) {
+            one.of_drivers = Eigen::VectorXd::Unit(
+                static_cast<long>(terms.size()),
+                static_cast<long>(index_of_name(term->place(), term->string(), terms)));
+            continue;
+        }
         const std::vector<JsonCursor> fractions = correctives[c].at("of_terms").items();
         if (fractions.size() != drivers.size())
             correctives[c]
@@ -98,7 +107,6 @@ ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const scene:
         one.of_drivers.resize(static_cast<long>(fractions.size()));
         for (std::size_t t = 0; t < fractions.size(); ++t)
             one.of_drivers[static_cast<long>(t)] = fractions[t].number();
-        one.shape = {target.vertex, target.delta};
     }
     return out;
 }

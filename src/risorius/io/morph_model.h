@@ -98,8 +98,9 @@ struct MorphModel {
     std::vector<MorphTarget> targets;
     std::vector<MorphAnimation> animations;
     Json extras;  ///< an object; its keys are written next to targetNames of the first mesh
-    /// true: displacements are integer multiples of 1/32767 of the maximum. false: floats, for readers that do not know
-    /// KHR_mesh_quantization.
+    /// true: positions and displacements are integer multiples of 1/32767 of the largest of them, other attributes have 16 bits, and
+    /// normals of targets stand where they turn by more than four degrees instead of two. false: floats, for readers that do not
+    /// know KHR_mesh_quantization.
     bool whole_numbers = false;
 };
 

@@ -17,11 +17,13 @@ namespace risorius::io {
 
 namespace {
 
-constexpr double kNoTurn = 0.035;    // change of a normal at weight 1; two degrees are not visible
-constexpr double kMaxWhole = 32767;  // of 16 bits
+// Change of a normal at weight 1; two degrees are not visible, and four hardly
+constexpr double kNoTurn = 0.035, kNoTurnCompact = 0.07;
+constexpr double kMaxWhole = 32767, kMaxShare = 65535;  // of 16 bits, with and without a sign
 
 using detail::Floats;
 using Packer = detail::GltfPacker;
+using detail::value_of;
 
 Points vertex_normals(const MorphModel& model, const Points& vertices) {
     Points normals = Points::Zero(vertices.rows(), 3);
@@ -54,23 +56,13 @@ float linear_of_srgb(double value) {
                                                : std::pow((value + 0.055) / 1.055, 2.4));
 }
 
-tinygltf::Value value_of(const Json& json) {
-    using Value = tinygltf::Value;
-    if (json.is_object()) {
-        Value::Object object;
-        for (const auto& [key, value] : json.items()) object[key] = value_of(value);
-        return Value(object);
-    }
-    if (json.is_array()) {
-        Value::Array array;
-        for (const Json& value : json) array.push_back(value_of(value));
-        return Value(array);
-    }
-    if (json.is_string()) return Value(json.get<std::string>());
-    if (json.is_boolean()) return Value(json.get<bool>());
-    if (json.is_number_integer()) return Value(json.get<int>());
-    if (json.is_number()) return Value(json.get<double>());
-    return {};
+/// Numbers as integers in multiples of a unit.
+template <typename T>
+std::vector<T> whole(const Floats& values, double unit) {
+    std::vector<T> out;
+    for (const float value : values)
+        out.push_back(static_cast<T>(std::lround(static_cast<double>(value) / unit)));
+    return out;
 }
 
 // The vertices of a part: one for every vertex of the model that it uses, and one more for every further texture coordinate
@@ -117,7 +109,8 @@ struct TargetFields {
             delta.row(target.vertex[i]) = target.delta.row(static_cast<long>(i));
         turn = vertex_normals(model, model.vertices + delta) - normals;
         for (long v = 0; v < turn.rows(); ++v)
-            if (turn.row(v).norm() < kNoTurn) turn.row(v).setZero();
+            if (turn.row(v).norm() < (model.whole_numbers ? kNoTurnCompact : kNoTurn))
+                turn.row(v).setZero();
     }
 };
 
@@ -195,6 +188,9 @@ class GlbWriter {
         for (const MorphTarget& target : model.targets)
             if (target.delta.size() > 0)
                 largest = std::max(largest, target.delta.cwiseAbs().maxCoeff());
+        for (const MorphPart& part : model.parts)
+            for (const int v : part.triangles.reshaped())
+                largest = std::max(largest, place_in(part, v).cwiseAbs().maxCoeff());
         // Positions use the same unit, and the scale of the node converts both to metres.
         unit_ = model.whole_numbers ? largest / kMaxWhole : 0;
         normals_ = vertex_normals(model, model.vertices);
@@ -219,6 +215,12 @@ class GlbWriter {
     }
 
   private:
+    /// A vertex from the origin of the node of a part, m.
+    Vec3 place_in(const MorphPart& part, int v) const {
+        return model_.vertices.row(v).transpose() -
+               nodes_[static_cast<std::size_t>(part.node)].place;
+    }
+
     /// A mesh, the parts in it, and its targets.
     struct Mesh {
         int node;
@@ -328,14 +330,16 @@ class GlbWriter {
         primitive.material = material(part);
         primitive.indices = packer_.indices(own.corner, own.count());
         constexpr int kVertexData = TINYGLTF_TARGET_ARRAY_BUFFER;
-        const auto vectors = [&](const Points& of, bool with_range) {
-            return packer_.floats(own.gather(of), TINYGLTF_TYPE_VEC3, with_range, kVertexData);
+        const auto vectors = [&](const Points& of, bool with_range, double unit, bool normalized) {
+            const Floats values = own.gather(of);
+            if (unit_ == 0)
+                return packer_.floats(values, TINYGLTF_TYPE_VEC3, with_range, kVertexData);
+            return packer_.shorts(whole<short>(values, unit), 3, normalized, with_range);
         };
-        Points places = model_.vertices.rowwise() -
-                        nodes_[static_cast<std::size_t>(part.node)].place.transpose();
-        if (unit_ > 0) places /= unit_;
-        primitive.attributes["POSITION"] = vectors(places, true);
-        primitive.attributes["NORMAL"] = vectors(normals_, false);
+        const Points places = model_.vertices.rowwise() -
+                              nodes_[static_cast<std::size_t>(part.node)].place.transpose();
+        primitive.attributes["POSITION"] = vectors(places, true, unit_, false);
+        primitive.attributes["NORMAL"] = vectors(normals_, false, 1 / kMaxWhole, true);
         primitive.attributes["_VERTEX"] = packer_.floats(
             Floats(own.vertex.begin(), own.vertex.end()), TINYGLTF_TYPE_SCALAR, false, kVertexData);
         if (part.texcoords.rows() > 0) {
@@ -344,14 +348,21 @@ class GlbWriter {
                 coordinates.push_back(static_cast<float>(u));
                 coordinates.push_back(static_cast<float>(1 - v));  // glTF measures from the top
             }
+            const auto [low, high] = std::minmax_element(coordinates.begin(), coordinates.end());
             primitive.attributes["TEXCOORD_0"] =
-                packer_.floats(coordinates, TINYGLTF_TYPE_VEC2, false, kVertexData);
+                unit_ > 0 && *low >= 0 && *high <= 1
+                    ? packer_.shorts(whole<unsigned short>(coordinates, 1 / kMaxShare), 2, true,
+                                     false)
+                    : packer_.floats(coordinates, TINYGLTF_TYPE_VEC2, false, kVertexData);
         }
-        if (part.tint.rows() > 0)
-            primitive.attributes["COLOR_0"] = vectors(part.tint.unaryExpr([](double value) {
-                return static_cast<double>(linear_of_srgb(value));
-            }),
-                                                      false);
+        if (part.tint.rows() > 0) {
+            const Floats colours = own.gather(part.tint.unaryExpr(
+                [](double value) { return static_cast<double>(linear_of_srgb(value)); }));
+            primitive.attributes["COLOR_0"] =
+                unit_ > 0
+                    ? packer_.shorts(whole<unsigned short>(colours, 1 / kMaxShare), 3, true, false)
+                    : packer_.floats(colours, TINYGLTF_TYPE_VEC3, false, kVertexData);
+        }
         if (part.node == model_.skin.node) add_joints(own, primitive);
         return primitive;
     }

@@ -17,7 +17,26 @@ double Driver::value(const Eigen::VectorXd& shape_weights) const {
     }
     const double w = weight_of(shapes[0]);
     for (int i = 0; i < 4; ++i) product *= i < part ? w : 1 - w;
-    return (part == 2 ? 6 : 4) * product;
+    constexpr double kInMiddle = 1 / 0.0625, kAside = 256.0 / 27.0;  // 1 over the maximum
+    return (part == 2 ? kInMiddle : kAside) * product;
+}
+
+std::string Driver::target_name() const {
+    std::string out;
+    for (const char c : name)
+        if (c == '*' || c == '~')
+            out += '_';
+        else
+            out += c;
+    if (shapes.size() == 1)  // "~1": a quarter of the way
+        out.replace(out.rfind('_') + 1, 1, std::to_string(25 * part));
+    return out;
+}
+
+std::optional<long> Corrective::follows() const {
+    if ((of_drivers.array() != 0).count() != 1) return std::nullopt;
+    Eigen::Index only;
+    return of_drivers.maxCoeff(&only) == 1 ? std::optional<long>(only) : std::nullopt;
 }
 
 Eigen::VectorXd BlendShapeRig::driver_values(const Eigen::VectorXd& weights) const {
@@ -41,7 +60,8 @@ Eigen::VectorXd BlendShapeRig::all_weights(const Eigen::VectorXd& weights) const
     Eigen::VectorXd out(weights.size() + static_cast<long>(correctives.size()));
     out.head(weights.size()) = weights;
     for (std::size_t c = 0; c < correctives.size(); ++c)
-        out[weights.size() + static_cast<long>(c)] = correctives[c].of_drivers.dot(values);
+        out[weights.size() + static_cast<long>(c)] =
+            std::clamp(correctives[c].of_drivers.dot(values), 0.0, 1.0);
     return out;
 }
 

@@ -3,11 +3,11 @@
 /// A blend shape rig: a weighted sum of shapes, and correctives for the errors of the sum.
 ///
 ///   x = rest + sum_s w_s d_s + sum_c k_c(w) d_c         w in [0, 1]
-///   k_c = sum_t a_ct f_t(w)                             drivers, shared by all correctives
+///   k_c = sum_t a_ct f_t(w), held in [0, 1]             drivers, shared by all correctives, each in [0, 1]
 ///   f_t = w_a w_b (1 - w_c) ...            driver of several shapes a, b: the product of their weights, which is 0 where one of them is
 ///                                          0; with a factor 1 - w_c for each shape c of `fades_with`
 ///   f_t = B_j(w_a) (1 - w_c) ...           driver of a part of the path of one shape a, for motion that is not straight, with
-///                                          B_j(w) = binomial(4, j) w^j (1 - w)^(4 - j), j = 1, 2, 3, which is 0 at the weights 0 and 1
+///                                          B_j(w) = w^j (1 - w)^(4 - j) over its maximum, j = 1, 2, 3, which is 0 at the weights 0 and 1
 ///
 /// Here w_s is the weight of shape s, d_s its displacements, d_c those of corrective c, and a_ct a constant
 /// (Corrective::of_drivers). The driver of a path fades as other shapes of the same skin are added, because the skin then takes
@@ -17,6 +17,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,13 +33,19 @@ struct Driver {
     std::vector<int> fades_with = {};  ///< shapes c, each with a factor (1 - w_c)
 
     double value(const Eigen::VectorXd& shape_weights) const;
+    /// The name of a corrective that follows this driver alone: "jawOpen_mouthSmileLeft", "eyeBlinkLeft_25"
+    std::string target_name() const;
 };
 
-/// A sparse field of displacements d_c with the weight k_c, a weighted sum of drivers.
+/// A sparse field of displacements d_c with the weight k_c, a weighted sum of drivers that is held in [0, 1], because many
+/// programs do so with the weights of shapes.
 struct Corrective {
     std::string name;
     SparseShape shape;
     Eigen::VectorXd of_drivers;  ///< a_ct, one factor per driver t
+
+    /// The driver that it follows alone with the factor 1, if there is one
+    std::optional<long> follows() const;
 };
 
 /// Shapes and correctives of one mesh.

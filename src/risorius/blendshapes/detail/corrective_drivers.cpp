@@ -11,9 +11,9 @@ namespace {
 // Fades with shapes that share more than this fraction of its motion
 constexpr double kFadesWith = 0.05;
 
-// Mean squares of drivers for uniformly distributed weights: of a part of a shape's path (the mean of 36 w^4 (1 - w)^4), and the
+// Mean squares of drivers for uniformly distributed weights: of a part of a shape's path (the mean of 256 w^4 (1 - w)^4), and the
 // ratio of w^2 (1 - w)^2 to w^2.
-constexpr double kSquareOfPart = 2.0 / 35.0, kSquareOfFading = 0.1;
+constexpr double kSquareOfPart = 256.0 / 630.0, kSquareOfFading = 0.1;
 
 // Converts the errors of a shape at weights 1/4, 1/2 and 3/4 to fields of the parts of its path (blend_shape_rig.h).
 std::array<Points, 3> parts_of_way(const std::array<const Points*, 3>& lacking) {
@@ -229,8 +229,8 @@ void DriverMaker::add(const Points& field, blendshapes::Driver driver, const std
 
 std::string weight_rule(const blendshapes::Driver& driver) {
     if (driver.shapes.size() > 1) return "product";
-    static const std::array<const char*, 3> kRules{"4 w (1 - w)^3", "6 w^2 (1 - w)^2",
-                                                   "4 w^3 (1 - w)"};
+    static const std::array<const char*, 3> kRules{"256 / 27 w (1 - w)^3", "16 w^2 (1 - w)^2",
+                                                   "256 / 27 w^3 (1 - w)"};
     return kRules.at(static_cast<std::size_t>(driver.part - 1));
 }
 

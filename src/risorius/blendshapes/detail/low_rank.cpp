@@ -20,6 +20,8 @@ constexpr double kOfLargest = 1e-3;
 constexpr double kOfOthers = 0.1;  // weight of the use in general, relative to the given frames
 // Factor by which the fade is enlarged while the budget is exceeded
 constexpr double kCoarser = 1.2;
+// A corrective may have this much of its largest weight in the given frames before it is held at 1
+constexpr double kHeadroom = 2;
 // Smaller factors of drivers in a corrective, relative to its largest, are dropped
 constexpr double kShareCounts = 1e-3;
 
@@ -78,8 +80,29 @@ void fit(Stack& stack, const std::vector<PlayedFrame>& frames, const Eigen::Matr
 /// Correctives of one side, the largest singular value first.
 struct HalfCorrectives {
     std::vector<Points> field;
-    Eigen::MatrixXd of_drivers;  ///< correctives x drivers
+    std::vector<Eigen::VectorXd> of_drivers;  ///< by corrective, one factor per driver
+    std::vector<std::string> ending;          ///< of their names
 };
+
+/// The largest weight that counts of a corrective with these factors, with drivers in [0, 1]: 0 if it is never above 0.
+double largest_weight(const Eigen::VectorXd& fractions, const Eigen::MatrixXd& frames) {
+    const double bound = fractions.cwiseMax(0.0).sum();
+    if (frames.rows() == 0) return bound;
+    const double alone = std::max(0.0, fractions.maxCoeff()),
+                 seen = (frames * fractions).maxCoeff();
+    return std::min(bound, std::max(alone, kHeadroom * seen));
+}
+
+/// How much each driver matters: the mean of its square over frames in use.
+Eigen::VectorXd use_of(const std::vector<DriverField>& fields, const Eigen::MatrixXd& drivers) {
+    const long frames = drivers.rows();
+    Eigen::VectorXd use(static_cast<long>(fields.size()));
+    for (std::size_t t = 0; t < fields.size(); ++t)
+        use[static_cast<long>(t)] = (frames == 0 ? 1 : kOfOthers) * fields[t].use;
+    if (frames > 0)
+        use += drivers.colwise().squaredNorm().transpose() / static_cast<double>(frames);
+    return use;
+}
 
 HalfCorrectives side_of(const Stack& stack, bool left, const Points& rest,
                         const Eigen::VectorXd& root_area, const Eigen::VectorXd& root_use,
@@ -103,25 +126,28 @@ HalfCorrectives side_of(const Stack& stack, bool left, const Points& rest,
            eigen.values[all - 1 - count] > std::max(0.0, min))
         ++count;
     HalfCorrectives out;
-    out.of_drivers.resize(count, all);
     for (long c = 0; c < count; ++c) {
         Eigen::VectorXd right = eigen.vectors.col(all - 1 - c);
         // The sign of a singular vector is arbitrary; its largest entry is made positive.
         Eigen::Index where;
         right.cwiseAbs().maxCoeff(&where);
         if (right[where] < 0) right = -right;
-        Eigen::VectorXd fractions = right.cwiseQuotient(root_use);
-        // Normalized to a maximum weight of 1 in use.
-        double max = right.cwiseAbs().maxCoeff();
-        if (frames.rows() > 0) max = std::max(max, (frames * fractions).cwiseAbs().maxCoeff());
-        const Eigen::VectorXd field = max * (half * root_use.cwiseProduct(right));
-        fractions /= max;
+        const Eigen::VectorXd fractions = right.cwiseQuotient(root_use);
+        const Eigen::VectorXd field = half * root_use.cwiseProduct(right);
         const double counts = kShareCounts * fractions.cwiseAbs().maxCoeff();
-        out.of_drivers.row(c) =
-            (fractions.array().abs() < counts).select(0.0, fractions).transpose();
-        Points& moved = out.field.emplace_back(Points::Zero(rest.rows(), 3));
-        for (std::size_t i = 0; i < stack.vertex.size(); ++i)
-            moved.row(stack.vertex[i]) = field.segment<3>(3 * static_cast<long>(i)).transpose();
+        // One for either sign, because a weight below 0 is none in many programs.
+        for (const double sign : {1.0, -1.0}) {
+            const Eigen::VectorXd signed_fractions =
+                sign * (fractions.array().abs() < counts).select(0.0, fractions).matrix();
+            const double max = largest_weight(signed_fractions, frames);
+            if (max <= counts) continue;
+            out.of_drivers.push_back(signed_fractions / max);
+            out.ending.push_back(std::to_string(c + 1) + (sign > 0 ? "" : "_minus"));
+            Points& moved = out.field.emplace_back(Points::Zero(rest.rows(), 3));
+            for (std::size_t i = 0; i < stack.vertex.size(); ++i)
+                moved.row(stack.vertex[i]) =
+                    sign * max * field.segment<3>(3 * static_cast<long>(i)).transpose();
+        }
     }
     return out;
 }
@@ -141,12 +167,8 @@ LowRank low_rank(std::vector<DriverField> fields, const std::vector<PlayedFrame>
     const Eigen::MatrixXd drivers = drivers_in(frames, fields);
     fit(stack, frames, drivers, how.ridge_weight);
 
-    Eigen::VectorXd use(static_cast<long>(fields.size()));
-    for (std::size_t t = 0; t < fields.size(); ++t)
-        use[static_cast<long>(t)] = (frames.empty() ? 1 : kOfOthers) * fields[t].use;
-    if (!frames.empty())
-        use += drivers.colwise().squaredNorm().transpose() / static_cast<double>(frames.size());
-    const Eigen::VectorXd root_use = use.cwiseSqrt(), root_area = area.cwiseSqrt();
+    const Eigen::VectorXd root_use = use_of(fields, drivers).cwiseSqrt(),
+                          root_area = area.cwiseSqrt();
     std::array<HalfCorrectives, 2> side;
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
         side[k] = side_of(stack, k == 0, rest, root_area, root_use, drivers, how);
@@ -161,13 +183,59 @@ LowRank low_rank(std::vector<DriverField> fields, const std::vector<PlayedFrame>
                 if (shape.empty()) continue;
                 out.bytes += how.bytes_of_a_vertex * static_cast<long>(shape.vertex.size());
                 out.correctives.push_back(
-                    {(k == 0 ? "correctiveLeft" : "correctiveRight") + std::to_string(c + 1),
-                     std::move(shape), side[k].of_drivers.row(static_cast<long>(c)).transpose()});
+                    {(k == 0 ? "correctiveLeft" : "correctiveRight") + side[k].ending[c],
+                     std::move(shape), side[k].of_drivers[c]});
             }
         if (out.bytes <= how.budget_bytes) break;
     }
     if (out.correctives.empty()) return out;
     for (DriverField& one : fields) out.drivers.push_back(std::move(one.driver));
+    return out;
+}
+
+LowRank one_of_each(std::vector<DriverField> fields, const std::vector<PlayedFrame>& frames,
+                    const Points& rest, const Eigen::VectorXd& area, const Compression& how) {
+    // Those that matter most, in their order
+    const Eigen::VectorXd use = use_of(fields, drivers_in(frames, fields));
+    std::vector<std::pair<double, std::size_t>> by_worth;
+    for (std::size_t t = 0; t < fields.size(); ++t)
+        by_worth.emplace_back(
+            -use[static_cast<long>(t)] * area.dot(fields[t].field.rowwise().squaredNorm()), t);
+    std::stable_sort(by_worth.begin(), by_worth.end());
+    const auto most = static_cast<std::size_t>(2 * how.most_of_a_side);
+    if (by_worth.size() > most) by_worth.resize(most);
+    std::sort(by_worth.begin(), by_worth.end(),
+              [](const auto& x, const auto& y) { return x.second < y.second; });
+    std::vector<DriverField> kept;
+    for (const auto& [worth, t] : by_worth) kept.push_back(std::move(fields[t]));
+
+    LowRank out;
+    if (kept.empty()) return out;
+    Stack stack = stacked(kept, frames, rest.rows());
+    fit(stack, frames, drivers_in(frames, kept), how.ridge_weight);
+    for (std::size_t t = 0; t < kept.size(); ++t)
+        for (std::size_t i = 0; i < stack.vertex.size(); ++i)
+            kept[t].field.row(stack.vertex[i]) = stack.column.col(static_cast<long>(t))
+                                                     .segment<3>(3 * static_cast<long>(i))
+                                                     .transpose();
+    std::vector<SparseShape> shapes;
+    for (Fade fade = how.fade;; fade.none_m *= kCoarser, fade.all_m *= kCoarser) {
+        shapes.clear();
+        out.bytes = 0;
+        for (const DriverField& one : kept) {
+            shapes.push_back(faded(one.field, fade));
+            out.bytes += how.bytes_of_a_vertex * static_cast<long>(shapes.back().vertex.size());
+        }
+        if (out.bytes <= how.budget_bytes) break;
+    }
+    for (std::size_t t = 0; t < kept.size(); ++t)
+        if (!shapes[t].empty()) {
+            out.drivers.push_back(std::move(kept[t].driver));
+            out.correctives.push_back({out.drivers.back().target_name(), std::move(shapes[t]), {}});
+        }
+    const auto count = static_cast<long>(out.drivers.size());
+    for (long c = 0; c < count; ++c)
+        out.correctives[static_cast<std::size_t>(c)].of_drivers = Eigen::VectorXd::Unit(count, c);
     return out;
 }
 

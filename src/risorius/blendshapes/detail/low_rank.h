@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// \file
 /// Makes a small number of correctives from many drivers. The fields of the drivers are fitted to simulated frames and compressed
-/// to low rank. Each corrective is sparse and belongs to one side of the face.
+/// to low rank. Each corrective is sparse, belongs to one side of the face, and has weights in [0, 1]: where a weight would change
+/// its sign, there is a second corrective for the other sign.
 ///
 ///   fit       D = D0 + R (K K' + p I)^-1 K      D, D0  3V x T   fields of the T drivers: fitted, and as given
 ///                                             K      F x T    values of the drivers in the F frames
@@ -40,7 +41,8 @@ struct Compression {
     Fade fade = {};
     /// Half the width of the strip in which the sides of the face merge
     double half_width_m = 0.015;
-    int most_of_a_side = 32;      ///< maximum number of correctives per side
+    int most_of_a_side =
+        32;  ///< maximum number of correctives per side; those for the other sign are not counted
     long bytes_of_a_vertex = 15;  ///< bytes per vertex of a corrective in a file
     long budget_bytes = 800'000;  ///< limit for all correctives together
 };
@@ -55,5 +57,10 @@ struct LowRank {
 /// have no influence on the others.
 LowRank low_rank(std::vector<DriverField> fields, const std::vector<PlayedFrame>& frames,
                  const Points& rest, const Eigen::VectorXd& area, const Compression& how = {});
+
+/// The same without compression: those drivers whose fields matter most, each with a corrective of its own that has its name
+/// (Driver::target_name()) and its value as weight. At most twice Compression::most_of_a_side.
+LowRank one_of_each(std::vector<DriverField> fields, const std::vector<PlayedFrame>& frames,
+                    const Points& rest, const Eigen::VectorXd& area, const Compression& how = {});
 
 }  // namespace risorius::blendshapes

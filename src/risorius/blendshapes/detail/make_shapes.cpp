@@ -7,6 +7,7 @@
 #include <optional>
 #include <tuple>
 
+#include "risorius/blendshapes/detail/rigid_parts.h"
 #include "risorius/face/anatomy/lid_measures.h"
 #include "risorius/face/surfaces.h"
 #include "risorius/scene/landmark_points.h"
@@ -131,7 +132,8 @@ class Maker {
           head_(solver.face().head()),
           channels_(files.rig.channels()),
           points_(head_, files.rig),
-          mirror_(blendshapes::mirror_of(head_.skin, head_.vertices)) {}
+          mirror_(blendshapes::mirror_of(head_.skin, head_.vertices)),
+          rigid_(rigid_parts(head_, files.mesh)) {}
 
     MadeShapes make(const ProgressMonitor& monitor) {
         const Plan plan = plan_of(set_, channels_);
@@ -285,6 +287,7 @@ class Maker {
                 made.solved_at * blendshapes::asymmetry_m(*mirror_, field, fields[partner]);
         certificate.stretch = blendshapes::stretch_of(solver_.face().surfaces().simulated_skin(),
                                                       head_.vertices, shown);
+        certificate.rigid_part_m = bent_by_m(rigid_, head_.vertices, shown);
         certificate.peak_m = field.rowwise().norm().maxCoeff();
         certificate.moved_vertices = static_cast<int>(made.shape.vertex.size());
     }
@@ -296,6 +299,7 @@ class Maker {
     track::ChannelTable channels_;
     scene::LandmarkPoints points_;
     std::optional<geom::MirrorPairs> mirror_;
+    std::vector<std::vector<int>> rigid_;
 };
 
 }  // namespace

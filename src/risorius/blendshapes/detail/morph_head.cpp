@@ -2,6 +2,7 @@
 #include "risorius/blendshapes/detail/morph_head.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -9,9 +10,11 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/read_file.h"
+#include "risorius/core/rotations.h"
 #include "risorius/core/version.h"
 #include "risorius/face/surfaces.h"
 #include "risorius/media/image_file.h"
+#include "risorius/media/jpeg_file.h"
 #include "risorius/render/lash_picture.h"
 #include "risorius/render/offscreen_view.h"
 #include "risorius/scene/scene_from_rig.h"
@@ -31,6 +34,7 @@ const Vec3 kScleraColour(0.93, 0.91, 0.89), kTeethColour(0.90, 0.87, 0.78),
 constexpr const char *kFace = "Face", *kHead = "Head", *kNeck = "Neck", *kShoulders = "Shoulders";
 constexpr const char* kPivots[] = {"LeftEye", "RightEye"};
 constexpr double kNeckShare = 0.5;  ///< of the head's turn
+constexpr double kDegrees = 180 / 3.14159265358979323846;
 
 int node_named(const io::MorphModel& model, const std::string& name) {
     for (std::size_t n = 0; n < model.nodes.size(); ++n)
@@ -188,7 +192,11 @@ class Pictures {
         const auto [entry, is_new] = of_look_.try_emplace(material, -1);
         if (is_new) {
             const char* const name = name_of(material);
-            add({name, "image/png", media::png_bytes(drawn(material), name)});
+            const Image image = drawn(material);
+            if (media::has_transparency(image))
+                add({name, "image/png", media::png_bytes(image, name)});
+            else
+                add({name, "image/jpeg", media::jpeg_bytes(image, name)});
             entry->second = static_cast<int>(list_.size()) - 1;
         }
         return entry->second;
@@ -362,6 +370,40 @@ io::MorphModel morph_head(const scene::RigFiles& files, const face::Face& face, 
     add_nodes(files, face, model);
     PartMaker(files, face.head(), texture_px, model).add_all();
     return model;
+}
+
+void describe_jaw(io::MorphModel& model) {
+    const char *const shape = "jawOpen", *const teeth = node_of(Carrier::kMandible);
+    const auto target = std::find_if(model.targets.begin(), model.targets.end(),
+                                     [&](const io::MorphTarget& one) { return one.name == shape; });
+    std::vector<int> vertices;
+    for (const io::MorphPart& part : model.parts)
+        if (part.node == node_named(model, teeth) && part.name == "Teeth")
+            vertices.insert(vertices.end(), part.triangles.data(),
+                            part.triangles.data() + part.triangles.size());
+    if (target == model.targets.end() || vertices.empty()) return;
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    Points moved = model.vertices;
+    for (std::size_t i = 0; i < target->vertex.size(); ++i)
+        moved.row(target->vertex[i]) += target->delta.row(static_cast<long>(i));
+    const Rigid motion = nearest_motion(model.vertices(vertices, Eigen::indexing::all),
+                                        moved(vertices, Eigen::indexing::all));
+    const Eigen::AngleAxisd turn(motion.linear());
+    constexpr double kNoTurn = 1e-3;
+    if (turn.angle() < kNoTurn) return;
+    // The point p of the axis nearest to the origin: what is left of the motion there is a slide along the axis.
+    const Vec3 axis = turn.axis(), shift = motion.translation();
+    const double slide = axis.dot(shift);
+    const Vec3 across = shift - slide * axis;
+    const Vec3 pivot = 0.5 * (across + axis.cross(across) / std::tan(0.5 * turn.angle()));
+    const auto list = [](const Vec3& of) { return Json{of.x(), of.y(), of.z()}; };
+    model.nodes[static_cast<std::size_t>(node_named(model, teeth))].extras["jaw"] = {
+        {"shape", shape},
+        {"pivot_m", list(pivot)},
+        {"axis", list(axis)},
+        {"angle_deg", kDegrees * turn.angle()},
+        {"slide_m", slide}};
 }
 
 std::vector<io::NodeMotion> node_motions(const io::MorphModel& model, const face::Face& face,

@@ -24,6 +24,7 @@ std::vector<std::string> ShapeCertificate::complaints(const ShapeLimits& limits)
     check("skin in eye", eye_depth_m, limits.penetration_m, 1e3, "mm");
     if (lid_gap_m) check("lids open by", *lid_gap_m, limits.lid_gap_m, 1e3, "mm");
     if (asymmetry_m) check("sides differ by", *asymmetry_m, limits.asymmetry_m, 1e3, "mm");
+    check("teeth or eyes bent by", rigid_part_m, limits.rigid_part_m, 1e3, "mm");
     if (!converged) out.push_back("did not come to rest");
     return out;
 }
@@ -36,6 +37,7 @@ Json ShapeCertificate::json() const {
                         {"lip_depth_mm", 1e3 * lip_depth_m},
                         {"eye_depth_mm", 1e3 * eye_depth_m},
                         {"bone_depth_mm", 1e3 * bone_depth_m},
+                        {"rigid_part_mm", 1e3 * rigid_part_m},
                         {"lid_gap_mm", mm(lid_gap_m)},
                         {"lip_gap_mm", mm(lip_gap_m)},
                         {"asymmetry_mm", mm(asymmetry_m)},

@@ -20,6 +20,7 @@ struct ShapeLimits {
     double penetration_m = 0.3e-3;
     double lid_gap_m = 0.3e-3;    ///< gap that a blink leaves
     double asymmetry_m = 0.2e-3;  ///< on a symmetric head
+    double rigid_part_m = 0.1e-3;
 };
 
 /// Measured values of one shape.
@@ -30,6 +31,7 @@ struct ShapeCertificate {
     /// Penetration of tissue into bone and teeth. It has no limit, because the surfaces of bone are estimates
     double bone_depth_m = 0;
     double eye_depth_m = 0;           ///< penetration of skin into the eyes
+    double rigid_part_m = 0;          ///< how far teeth and eyes are bent (rigid_parts.h)
     std::optional<double> lid_gap_m;  ///< only for shapes that close the eye
     std::optional<double> lip_gap_m;  ///< only for shapes that close the mouth over an open jaw
     /// Of the shape, or between it and its namesake on the other side

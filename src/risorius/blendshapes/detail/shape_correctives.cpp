@@ -131,7 +131,7 @@ CorrectiveOptions correctives_of_set(const std::string& set) {
     if (set != "facs") return out;
     out.pairs = 160;
     out.bent_pairs = true;
-    out.budget_bytes = 2'000'000;
+    out.budget_bytes = 4'000'000;
     out.random_frames = 192;
     return out;
 }
@@ -199,11 +199,12 @@ Correctives find_correctives(const scene::RigFiles& files, const MadeShapes& sha
 
     const std::vector<blendshapes::PlayedFrame> frames =
         frames_left_to_explain(played, poses, candidates.size(), out.rig);
-    blendshapes::LowRank made = blendshapes::low_rank(
-        drivers.take(), frames, head.vertices, scene::seen_areas(solver.face()),
-        {.fade = {0.5 * options.fade_m, 1.5 * options.fade_m},
-         .half_width_m = head.mm(kSharedStrip_mm),
-         .budget_bytes = options.budget_bytes});
+    const auto reduced = options.named ? blendshapes::one_of_each : blendshapes::low_rank;
+    blendshapes::LowRank made =
+        reduced(drivers.take(), frames, head.vertices, scene::seen_areas(solver.face()),
+                {.fade = {0.5 * options.fade_m, 1.5 * options.fade_m},
+                 .half_width_m = head.mm(kSharedStrip_mm),
+                 .budget_bytes = options.budget_bytes});
     out.rig.drivers = std::move(made.drivers);
     out.rig.correctives = std::move(made.correctives);
     out.bytes = made.bytes;

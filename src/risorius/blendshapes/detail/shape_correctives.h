@@ -22,6 +22,9 @@ struct CorrectiveOptions {
     double fade_m = 0.1e-3;  ///< smaller displacements of a corrective are removed
     /// Limit of the bytes of all correctives in a file; small displacements are dropped to meet it
     long budget_bytes = 800'000;
+    /// True: each corrective follows one driver and has its name (one_of_each()); false: sums of drivers (low_rank()), which are ten
+    /// times as accurate at the same size
+    bool named = false;
     /// Number of frames of random_facs_track() to which correctives are also fitted
     int random_frames = 0;
 };

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "risorius/blendshapes/detail/corrective_drivers.h"
@@ -15,6 +18,7 @@
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
+#include "risorius/face/surfaces.h"
 #include "risorius/io/read_mesh.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/folder_name.h"
@@ -30,6 +34,13 @@ Vec3 in_mesh_units(const rig::Head& head, const blendshapes::SparseShape& shape,
            head.frame.metres_per_unit;
 }
 
+// With five digits: there are thousands of them.
+double shortened(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.5g", value);
+    return std::strtod(text, nullptr);
+}
+
 }  // namespace
 
 io::MorphModel morph_model(const scene::RigFiles& files, const face::Face& face,
@@ -41,6 +52,7 @@ io::MorphModel morph_model(const scene::RigFiles& files, const face::Face& face,
     for (const MadeShape& made : shapes.list)
         model.targets.push_back({made.goal.name, made.shape.vertex, made.shape.delta});
     shade_mouth(head, model);
+    describe_jaw(model);
     const auto names_of = [&](const std::vector<int>& indices) {
         Json out = Json::array();
         for (const int i : indices)
@@ -57,10 +69,14 @@ io::MorphModel morph_model(const scene::RigFiles& files, const face::Face& face,
     }
     for (const blendshapes::Corrective& corrective : linear.correctives) {
         model.targets.push_back({corrective.name, corrective.shape.vertex, corrective.shape.delta});
-        Json of_drivers = Json::array();
+        Json& listed = correctives.emplace_back(json_object({{"name", corrective.name}}));
+        if (const std::optional<long> driver = corrective.follows()) {
+            listed["term"] = linear.drivers[static_cast<std::size_t>(*driver)].name;
+            continue;
+        }
+        listed["of_terms"] = Json::array();
         for (const double fraction : corrective.of_drivers)
-            of_drivers.push_back(static_cast<float>(fraction));
-        correctives.push_back(json_object({{"name", corrective.name}, {"of_terms", of_drivers}}));
+            listed["of_terms"].push_back(shortened(fraction));
     }
     Json on_top = Json::object();
     for (const MadeShape& made : shapes.list)
@@ -127,17 +143,23 @@ std::vector<std::string> write_shape_table(const scene::RigFiles& files, const r
     return {"shapes.json", "shapes.f32"};
 }
 
-std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const rig::Head& head,
+std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const face::Face& face,
                                             const blendshapes::BlendShapeRig& linear,
                                             const ShapeAnimation& animation,
                                             const std::vector<std::string>& formats,
-                                            const std::filesystem::path& folder) {
+                                            bool head_turns, const std::filesystem::path& folder) {
+    const rig::Head& head = face.head();
     PointCache cache{
         head.vertices.rows(), animation.weights.rows(), static_cast<double>(animation.fps), {}};
     std::vector<float> frame(3 * static_cast<std::size_t>(head.vertices.rows()));
     for (long f = 0; f < animation.weights.rows(); ++f) {
         Points moved = Points::Zero(head.vertices.rows(), 3);
         linear.add_to(moved, animation.weights.row(f).transpose());
+        if (head_turns)
+            moved = face.surfaces()
+                        .posed(head.vertices + moved, animation.drives[static_cast<std::size_t>(f)])
+                        .vertices -
+                    head.vertices;
         for (long v = 0; v < moved.rows(); ++v) {
             const Vec3 at = files.mesh.positions.row(v).transpose() +
                             head.frame.rotation.transpose() * moved.row(v).transpose() /

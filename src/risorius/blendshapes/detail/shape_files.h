@@ -24,13 +24,14 @@ io::MorphModel morph_model(const scene::RigFiles& files, const face::Face& face,
                            const blendshapes::BlendShapeRig& linear,
                            const ShapeAnimation* animation, int texture_px);
 
-/// Writes every vertex in every frame of the animation, in mesh units, computed with the blend shape rig. Of `formats`, "cache" is
+/// Writes every vertex in every frame of the animation, in mesh units, computed with the blend shape rig. `head_turns`: with the
+/// motion of head and eyes, as in a video, instead of by shapes alone. Of `formats`, "cache" is
 /// folder/cache.json and folder/cache.f32, "pc2" cache.pc2 and "mdd" cache.mdd. Returns the names of the files.
-std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const rig::Head& head,
+std::vector<std::string> write_vertex_cache(const scene::RigFiles& files, const face::Face& face,
                                             const blendshapes::BlendShapeRig& linear,
                                             const ShapeAnimation& animation,
                                             const std::vector<std::string>& formats,
-                                            const std::filesystem::path& folder);
+                                            bool head_turns, const std::filesystem::path& folder);
 
 /// Writes folder/shapes.json and folder/shapes.f32 (docs/formats/measured-shapes.md) which also hold the activations that made
 /// each shape. Displacements are in mesh units, and the vertices are in the order of the mesh file. Returns the names of the

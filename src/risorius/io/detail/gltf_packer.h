@@ -8,15 +8,39 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "risorius/core/json_cursor.h"
+
 namespace risorius::io::detail {
 
 using Floats = std::vector<float>;
+
+/// JSON as the library of glTF holds it, for extras.
+inline tinygltf::Value value_of(const Json& json) {
+    using Value = tinygltf::Value;
+    if (json.is_object()) {
+        Value::Object object;
+        for (const auto& [key, value] : json.items()) object[key] = value_of(value);
+        return Value(object);
+    }
+    if (json.is_array()) {
+        Value::Array array;
+        for (const Json& value : json) array.push_back(value_of(value));
+        return Value(array);
+    }
+    if (json.is_string()) return Value(json.get<std::string>());
+    if (json.is_boolean()) return Value(json.get<bool>());
+    if (json.is_number_integer()) return Value(json.get<int>());
+    if (json.is_number()) return Value(json.get<double>());
+    return {};
+}
 
 /// The one binary buffer of the file, and the accessors that refer to it.
 class GltfPacker {
@@ -34,6 +58,22 @@ class GltfPacker {
     int floats(const Floats& values, int type, bool with_range, int target = 0) {
         tinygltf::Accessor accessor = described(values, type, with_range);
         accessor.bufferView = view(values, target);
+        return add(accessor);
+    }
+    /// Vectors of `width` 16-bit integers, each on four bytes as vertex attributes have to be. "Normalized" ones run from -1 or 0
+    /// to 1.
+    template <typename T>
+    int shorts(const std::vector<T>& values, std::size_t width, bool normalized, bool with_range) {
+        static_assert(sizeof(T) == 2);
+        constexpr int kTypes[] = {TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4};
+        tinygltf::Accessor accessor = described(values, kTypes[width - 2], with_range);
+        accessor.normalized = normalized;
+        const std::size_t padded = (width + 1) / 2 * 2;
+        std::vector<T> spread(values.size() / width * padded, T{0});
+        for (std::size_t i = 0; i < values.size(); ++i)
+            spread[i / width * padded + i % width] = values[i];
+        accessor.bufferView = view(spread, TINYGLTF_TARGET_ARRAY_BUFFER);
+        if (padded != width) model_.bufferViews.back().byteStride = padded * sizeof(T);
         return add(accessor);
     }
     int indices(const std::vector<unsigned>& values, unsigned vertices) {
@@ -59,8 +99,11 @@ class GltfPacker {
         accessor.bufferView = zeros_;
         accessor.sparse.isSparse = true;
         accessor.sparse.count = static_cast<int>(at.size());
+        // Many shapes move the same vertices.
+        const auto [known, is_new] = moved_.try_emplace({count > kMostOfShort, at});
+        if (is_new) known->second = index_view(at, count, 0);
         std::tie(accessor.sparse.indices.bufferView, accessor.sparse.indices.componentType) =
-            index_view(at, count, 0);
+            known->second;
         accessor.sparse.indices.byteOffset = 0;
         accessor.sparse.values.bufferView = view(values, 0);
         accessor.sparse.values.byteOffset = 0;
@@ -128,12 +171,17 @@ class GltfPacker {
     }
     std::pair<int, int> index_view(const std::vector<unsigned>& values, unsigned vertices,
                                    int target) {
-        if (vertices > 65534) return {view(values, target), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT};
+        if (vertices > kMostOfShort)
+            return {view(values, target), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT};
         return {view(std::vector<unsigned short>(values.begin(), values.end()), target),
                 TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT};
     }
 
+    static constexpr unsigned kMostOfShort = 65534;
+
     tinygltf::Model& model_;
+    /// The views of lists of vertices, and their types; with 32 bits or 16
+    std::map<std::pair<bool, std::vector<unsigned>>, std::pair<int, int>> moved_;
     int zeros_ = -1;  ///< the view of zeros
 };
 

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/media/jpeg_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "risorius/core/error.h"
+#include "risorius/media/detail/ffmpeg.h"
+
+namespace risorius::media {
+
+namespace {
+
+using namespace detail;
+
+/// Y, Cb and Cr with full range, as JFIF has them (ITU-T T.871, BT.601).
+void put_ycc(const Image& image, AVFrame& frame) {
+    const auto byte = [](double value) {
+        return static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
+    };
+    for (int y = 0; y < image.height_px; ++y)
+        for (int x = 0; x < image.width_px; ++x) {
+            const std::uint8_t* const rgb = image.pixel(x, y);
+            const double r = rgb[0], g = rgb[1], b = rgb[2];
+            const double luma = 0.299 * r + 0.587 * g + 0.114 * b;
+            const double value[] = {luma, 128 + (b - luma) / 1.772, 128 + (r - luma) / 1.402};
+            for (int c = 0; c < 3; ++c)
+                frame.data[c][std::ptrdiff_t{y} * frame.linesize[c] + x] = byte(value[c]);
+        }
+}
+
+}  // namespace
+
+std::string jpeg_bytes(const Image& image, const std::string& name, int quantizer) {
+    if (image.width_px < 1 || image.height_px < 1)
+        throw Error(name, "a picture of at least 1 x 1 pixels",
+                    std::to_string(image.width_px) + " x " + std::to_string(image.height_px));
+    silence_ffmpeg();
+    const auto check = [&](int code) {
+        if (code < 0) throw RunError(name + ": cannot be encoded as JPEG: " + ffmpeg_text(code));
+    };
+    const AVCodec* encoder = avcodec_find_encoder(AV_CODEC_ID_MJPEG);
+    if (!encoder) throw RunError(name + ": the installed libavcodec has no JPEG");
+    const CodecPtr codec(avcodec_alloc_context3(encoder));
+    const FramePtr frame(av_frame_alloc());
+    const PacketPtr packet(av_packet_alloc());
+    if (!codec || !frame || !packet) throw std::bad_alloc();
+    codec->thread_count = 1;
+    codec->width = frame->width = image.width_px;
+    codec->height = frame->height = image.height_px;
+    codec->pix_fmt = AV_PIX_FMT_YUVJ444P;
+    codec->color_range = frame->color_range = AVCOL_RANGE_JPEG;
+    frame->format = codec->pix_fmt;
+    codec->time_base = {1, 1};
+    codec->flags |= AV_CODEC_FLAG_BITEXACT | AV_CODEC_FLAG_QSCALE;
+    codec->qmin = codec->qmax = quantizer;
+    codec->global_quality = frame->quality = FF_QP2LAMBDA * quantizer;
+    check(avcodec_open2(codec.get(), encoder, nullptr));
+    check(av_frame_get_buffer(frame.get(), 0));
+    put_ycc(image, *frame);
+    frame->pts = 0;
+    check(avcodec_send_frame(codec.get(), frame.get()));
+    check(avcodec_send_frame(codec.get(), nullptr));
+    check(avcodec_receive_packet(codec.get(), packet.get()));
+    return {reinterpret_cast<const char*>(packet->data), static_cast<std::size_t>(packet->size)};
+}
+
+}  // namespace risorius::media

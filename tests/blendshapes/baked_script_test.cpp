@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// A script in the files of blend shapes: the glTF animation and the vertex cache are the same motion, and every weight is one that
+// other programs take.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "paths.h"
+#include "risorius/blendshapes/bake_shapes.h"
+#include "risorius/core/read_file.h"
+#include "risorius/face/face.h"
+#include "risorius/face/surfaces.h"
+#include "risorius/io/morph_model.h"
+#include "temporary_folder.h"
+
+namespace risorius::blendshapes {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRigOfScript = fs::path(RISORIUS_SOURCE_DIR) / "rigs/adult/rig.json";
+
+/// The displacements of a cache from the mesh at rest, one list of vertices a frame: head frame, m.
+std::vector<Points> cached(const fs::path& file, const scene::RigFiles& files,
+                           const rig::Head& head) {
+    const std::string bytes = read_file(file, {"a cache", 500 * kMegabyte});
+    std::vector<float> numbers(bytes.size() / sizeof(float));
+    std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(float));
+    const long count = head.vertices.rows();
+    std::vector<Points> out;
+    for (std::size_t at = 0; at + 1 < numbers.size(); at += 3 * static_cast<std::size_t>(count)) {
+        Points& moved = out.emplace_back(count, 3);
+        for (long v = 0; v < count; ++v) {
+            Vec3 by;
+            for (long k = 0; k < 3; ++k)
+                by[k] = static_cast<double>(numbers[at + static_cast<std::size_t>(3 * v + k)]) -
+                        files.mesh.positions(v, k);
+            moved.row(v) = (head.frame.metres_per_unit * (head.frame.rotation * by)).transpose();
+        }
+    }
+    return out;
+}
+
+/// Largest distance in m of the glTF animation, played with its own weights alone, from a cache.
+double farthest_m(const io::MorphModel& model, const std::vector<Points>& cache) {
+    const io::MorphAnimation& animation = model.animations.at(0);
+    double worst = 0;
+    for (long f = 0; f < animation.weights.rows(); ++f) {
+        Points moved = Points::Zero(model.vertices.rows(), 3);
+        for (std::size_t t = 0; t < model.targets.size(); ++t)
+            for (std::size_t i = 0; i < model.targets[t].vertex.size(); ++i)
+                moved.row(model.targets[t].vertex[i]) +=
+                    static_cast<double>(animation.weights(f, static_cast<long>(t))) *
+                    model.targets[t].delta.row(static_cast<long>(i));
+        worst = std::max(
+            worst, (moved - cache.at(static_cast<std::size_t>(f))).rowwise().norm().maxCoeff());
+    }
+    return worst;
+}
+
+// The smile and the open mouth overlap, so that there is a corrective with a weight.
+TEST(BakedScript, TheAnimationHasWeightsFromZeroToOneAndIsTheCache) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.path() / "script.json") << R"({"format": "risorius-script", "version": 1,
+        "rig": ")" << kRigOfScript.generic_string()
+                                                 << R"(", "fps": 20, "duration_s": 0.4,
+        "channels": {"AU12": {"keys": [[0, 0], [0.1, 1]]}, "jaw_open": {"keys": [[0, 0], [0.3, 1]]},
+                     "head_yaw_deg": {"keys": [[0, 0], [0.3, 20]]}}})";
+    ShapesOptions options{.rig = kRigOfScript,
+                          .out = folder.path() / "shapes",
+                          .only = {"mouthSmile", "jawOpen"},
+                          .formats = {"glb", "cache", "csv"},
+                          .pictures = false,
+                          .pairs = 1,
+                          .test_frames = 0,
+                          .script = folder.path() / "script.json",
+                          .threads = 2};
+    options.texture_px = 256;
+    const ShapesReport report = bake_shapes(options);
+    const io::MorphModel model = io::read_glb(options.out / "shapes.glb");
+    ASSERT_EQ(model.animations.size(), 1u);
+    const Eigen::MatrixXf& weights = model.animations[0].weights;
+    EXPECT_EQ(weights.rows(), 8);
+    EXPECT_GE(weights.minCoeff(), 0.f);
+    EXPECT_LE(weights.maxCoeff(), 1.f);
+    EXPECT_GT(weights.rightCols(weights.cols() - 3).maxCoeff(), 0.1f);  // of the correctives
+    const scene::RigFiles files = scene::read_rig_files(kRigOfScript);
+    const face::Face face(files.rig, files.mesh, face::quality_named("preview"), files.place());
+    const std::vector<Points> cache = cached(options.out / "cache.f32", files, face.head());
+    ASSERT_EQ(cache.size(), 8u);
+    ASSERT_EQ(model.vertices.rows(), face.head().vertices.rows());
+    EXPECT_LT(farthest_m(model, cache), 0.01e-3);
+    EXPECT_GT(cache[7].rowwise().norm().maxCoeff(), 3e-3);
+    for (const MadeShape& made : report.shapes.list)
+        EXPECT_LT(made.certificate.rigid_part_m, 0.1e-3) << made.goal.name;
+
+    // With the turn of the head the cache is what the pose of a video is.
+    options.out = folder.path() / "turned";
+    options.head_turns = true;
+    options.correctives = false;
+    options.formats = {"cache"};
+    bake_shapes(options);
+    const std::vector<Points> turned = cached(options.out / "cache.f32", files, face.head());
+    const std::vector<double>& share = face.surfaces().head_fractions();
+    const Vec3 pivot = face.surfaces().head_pivot();
+    const Mat3 yaw(Eigen::AngleAxisd(20 * 3.14159265358979 / 180, Vec3::UnitY()));
+    double top = 0;
+    int compared = 0;
+    for (long v = 0; v < model.vertices.rows(); ++v) {
+        if (share[static_cast<std::size_t>(v)] < 1 || model.vertices(v, 1) < 0.08) continue;
+        const Vec3 at = face.head().vertices.row(v), to = pivot + yaw * (at - pivot);
+        top = std::max(top, (turned.at(7).row(v).transpose() - (to - at)).norm());
+        ++compared;
+    }
+    EXPECT_GT(compared, 100);
+    EXPECT_LT(top, 0.1e-3);
+}
+
+}  // namespace
+}  // namespace risorius::blendshapes
