@@ -269,22 +269,5 @@ TEST(ReadUnits, TheAdultsUnitsGoAsFarAndAsEvenlyAsTheTableAsks) {
             ": expected an action unit with landmark targets, found \"AU99\"");
 }
 
-// Without the curve of the pressure AU34 showed 0.33, 0.60 and 0.82 of its way; AU8 between closed lips reached 0.53, and AU39 0.20.
-TEST(ReadUnits, PuffedCheeksAndRareUnitsOfTheAdultGoFarAndEvenly) {
-    const UnitReadings readings =
-        read_units({.rig = kRoot / "rigs/adult/rig.json", .only = {"AU8", "AU34", "AU39"}});
-    ASSERT_EQ(readings.units.size(), 3u);
-    for (const scene::UnitReading& unit : readings.units) {
-        EXPECT_GT(unit.gain, 0.8) << unit.unit;
-        EXPECT_LT(unit.gain, 1.25) << unit.unit;
-        const std::array<double, 3> even{0.25, 0.5, 0.75};
-        for (std::size_t i = 0; i < even.size(); ++i)
-            EXPECT_NEAR(unit.response[i], even[i], 0.05) << unit.unit;
-        EXPECT_LT(unit.uneven_mm, 0.5) << unit.unit;
-    }
-    // The lips come together from the open mouth of AU25 and AU26.
-    EXPECT_LT(readings.units[0].change.lip_gap, -5);
-}
-
 }  // namespace
 }  // namespace risorius::inverse
