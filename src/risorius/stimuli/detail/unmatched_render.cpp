@@ -126,10 +126,10 @@ void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker) {
     media::VideoReader reader(video_file);
     MeasuredLuminance measured;
     for (int frame = 0; frame < reader.frames(); ++frame) {
-        const Image picture = reader.frame(frame);
-        const std::vector<float> weights = measured_weights(plan, rows, frame, picture);
-        measured.sums.add(picture, weights);
-        measured.colours.add(picture, weights);
+        const Image image = reader.frame(frame);
+        const std::vector<float> weights = measured_weights(plan, rows, frame, image);
+        measured.sums.add(image, weights);
+        measured.colours.add(image, weights);
     }
     Json record = json_object({{"film_sha256", plan.render_sha256},
                                {"video_sha256", sha256_of_file(video_file)},
