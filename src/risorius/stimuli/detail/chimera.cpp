@@ -24,11 +24,6 @@ double height_of(const animate::FrameRows& rows, const std::string& id, const st
     return rows.number(0, column);
 }
 
-bool ends_a_landmark(const std::string& column) {
-    return column.ends_with(".x_mm") || column.ends_with(".y_mm") || column.ends_with(".z_mm") ||
-           column.ends_with(".u_px") || column.ends_with(".v_px");
-}
-
 }  // namespace
 
 Chimera::Chimera(const ClipPlan& plan, const animate::FrameRows& upper, std::vector<Image> lower)
@@ -103,7 +98,7 @@ animate::FrameRows Chimera::rows(const animate::FrameRows& upper,
     animate::FrameRows out = upper;
     for (std::size_t c = 0; c < out.names.size(); ++c) {
         const std::string& name = out.names[c];
-        if (!ends_a_landmark(name)) continue;
+        if (!is_of_landmark(name)) continue;
         const std::string id = name.substr(0, name.rfind('.'));
         const int height = upper.column(id + ".v_px"), other = lower.column(name);
         if (height < 0 || other < 0 || upper.number(0, height) < row_px_) continue;

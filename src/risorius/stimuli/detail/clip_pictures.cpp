@@ -86,12 +86,12 @@ std::optional<std::string> shown(const std::string& column, const media::Picture
     return {};
 }
 
+}  // namespace
+
 bool is_of_landmark(const std::string& column) {
     return column.ends_with(".x_mm") || column.ends_with(".y_mm") || column.ends_with(".z_mm") ||
            column.ends_with(".u_px") || column.ends_with(".v_px");
 }
-
-}  // namespace
 
 int strip_frames(const ClipPlan& plan) { return plan.clips.pictures() ? 1 : kStripFrames; }
 

@@ -36,6 +36,9 @@ bool needs_all_frames(const ClipPlan& plan);
 int strip_frames(const ClipPlan& plan);
 int strip_frame(int index, int frames);
 
+/// Returns whether a column of a table of frames holds a coordinate of a landmark.
+bool is_of_landmark(const std::string& column);
+
 /// Returns the distance of the landmarks zy_l and zy_r in the first frame, px. Throws Error naming `place` when there are none.
 double width_of_face(const animate::FrameRows& rows, const std::string& place);
 
