@@ -188,5 +188,36 @@ TEST_F(MorphHead, TheMouthIsDarkInsideAndBrightAtTheLips) {
     EXPECT_LT(deep / inside, 0.4);
 }
 
+// Teeth that the lips cover while the jaw is open are seen in a smile, and must not be black in it.
+TEST_F(MorphHead, TeethAreAsBrightAsLipsThatBareThemLetThemBe) {
+    const auto brightest = [&](const io::MorphModel& model) {
+        double most = 0;
+        for (const io::MorphPart& part : model.parts)
+            if (part.name == "Teeth")
+                for (const int v : part.triangles.reshaped())
+                    most = std::max(most, part.tint(v, 0));
+        return most;
+    };
+    io::MorphModel shut = *model_;
+    shade_mouth(face_->head(), shut);
+    // The upper lip goes up by 8 mm, without the jaw.
+    io::MorphModel bared = *model_;
+    io::MorphTarget& up = bared.targets.emplace_back();
+    up.name = "lip up";
+    const Vec3 lip = face_->head().landmark("ls");
+    std::set<int> skin;
+    for (const io::MorphPart& part : bared.parts)
+        if (part.name == "Skin")
+            skin.insert(part.triangles.reshaped().begin(), part.triangles.reshaped().end());
+    for (const int v : skin)
+        if ((bared.vertices.row(v).transpose() - lip).norm() < 0.03 &&
+            bared.vertices(v, 1) > face_->head().landmark("sto").y())
+            up.vertex.push_back(v);
+    up.delta = Points::Zero(static_cast<long>(up.vertex.size()), 3);
+    up.delta.col(1).setConstant(0.008);
+    shade_mouth(face_->head(), bared);
+    EXPECT_GT(brightest(bared), brightest(shut) + 0.2);
+}
+
 }  // namespace
 }  // namespace risorius::blendshapes

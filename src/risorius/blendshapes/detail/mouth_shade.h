@@ -12,8 +12,8 @@
 namespace risorius::blendshapes {
 
 /// Sets MorphPart::tint of the wall of the mouth, teeth, gums and tongue to the share of the surroundings that each vertex sees
-/// while the jaw is open. The jaw is open as the shape opens it that lowers the lower teeth most; without such a shape, it is
-/// shut. The shapes must already be in the model.
+/// while the jaw is open; of teeth and gums while the lips bare them, if that is more. The jaw is open as the shape opens it that
+/// lowers the lower teeth most; without such a shape, it is shut. The shapes must already be in the model.
 void shade_mouth(const rig::Head& head, io::MorphModel& model);
 
 }  // namespace risorius::blendshapes
