@@ -123,7 +123,7 @@ BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped)
     plan.name = design.name;
     plan.match = design.match;
     plan.experiment = design.experiment;
-    plan.pulse_ms = design.pulse_ms;
+    plan.triggers = design.triggers;
     plan.dataset = design.dataset;
     for (const design::ConditionSet& set : design.sets)
         if (set.sample)
@@ -134,11 +134,16 @@ BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped)
     plan.inputs = std::make_shared<animate::RenderInputs>(stopped);
     SoundPlans sounds;
     MotionMatch motion(design.clips.quality, *plan.inputs, {.progress = {}, .stopped = stopped});
-    const auto find = [&](double share, const std::function<Json(double)>& script_at,
-                          const fs::path& folder, const std::string& place) {
-        return motion.intensity_for(share, script_at, folder, place);
-    };
-    const std::vector<design::Condition> conditions = design::conditions_of(design, find);
+    const design::MotionSearch search{
+        [&](double share, const design::MotionSearch::Script& script_at, const fs::path& folder,
+            const std::string& place) {
+            return motion.intensity_for(share, script_at, folder, place);
+        },
+        [&](double apex_s, const design::MotionSearch::Script& script_at, const fs::path& folder,
+            const std::string& place) {
+            return motion.time_for(apex_s, script_at, folder, place);
+        }};
+    const std::vector<design::Condition> conditions = design::conditions_of(design, search);
     // All clips of a set begin as early as its earliest recording, so that they are equally long.
     std::map<std::string, double> lead_s;
     for (const design::Condition& condition : conditions)

@@ -148,7 +148,7 @@ void add_norms(const BatchPlan& plan, const Norms& norms, std::vector<Column>& c
                        share(&Share::low)});
     columns.push_back({"norm_hit_high", described("Upper end of its interval of 95 % (Wilson)"),
                        share(&Share::high)});
-    for (const std::string& scale : rating_scales()) {
+    for (const std::string& scale : design::rating_scales()) {
         const bool any = std::any_of(norms.clips.begin(), norms.clips.end(), [&](const auto& clip) {
             return clip.second.means.count(scale) > 0;
         });
