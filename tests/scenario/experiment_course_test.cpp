@@ -169,7 +169,10 @@ TEST_F(ExperimentCourse, HasPracticeBlocksCatchTrialsAndAScanner) {
         const double onset_s = std::stod(event.at("onset"));
         EXPECT_GE(onset_s, before_s);
         before_s = onset_s;
-        if (event.at("trial_type") == "pulse") EXPECT_NEAR(onset_s, 0.7 * pulses++, 1e-4);
+        if (event.at("trial_type") == "pulse")
+            EXPECT_NEAR(onset_s, 0.7 * pulses++, 1e-4);
+        else
+            EXPECT_TRUE(fs::exists(*folder / "set/stimuli" / event.at("stim_file")));
     }
     EXPECT_GT(pulses, 10);
     const Json about = Json::parse(files.at("_events.json"));

@@ -131,7 +131,7 @@ timeline.push({timeline: [trialOf(() => current, true)], conditional_function: n
 // The answers, and the events as BIDS has them
 function filesOfRun() {
     const rows = jsPsych.data.get().values(), names = ['onset', 'duration', 'trial_type', 'response_time', 'stimulus_id',
-        'trial', 'block', 'kind', 'answer', 'correct'];
+        'stim_file', 'trial', 'block', 'kind', 'answer', 'correct'];
     const lines = [names.join('\t')], plain = (text) => String(text).replace(/[^A-Za-z0-9]/g, '');
     const cell = (value) => value === undefined || value === null ? 'n/a' : String(value);
     rows.forEach((row, at) => {
@@ -140,8 +140,8 @@ function filesOfRun() {
         lines.push([((row.first_frame_ms - begun_ms) / 1000).toFixed(4),
             row.shown_s !== undefined ? row.shown_s : (row.frames / row.fps).toFixed(4),
             [row.set, row.control].filter(Boolean).join(' '),
-            Number.isFinite(told.response_time_s) ? told.response_time_s.toFixed(4) : 'n/a', `stim-${row.stim_id}`, lines.length - 1,
-            row.block, row.kind, cell(told.answer), told.correct === undefined ? 'n/a' : Number(told.correct)].join('\t'));
+            Number.isFinite(told.response_time_s) ? told.response_time_s.toFixed(4) : 'n/a', `stim-${row.stim_id}`,
+            row.stim_file, lines.length - 1, row.block, row.kind, cell(told.answer), told.correct === undefined ? 'n/a' : Number(told.correct)].join('\t'));
     });
     const stem = `sub-${plain(participant) || '0'}_task-${plain(settings.name) || 'clips'}_run-1`;
     return [[`data-${participant || 'participant'}.csv`, 'text/csv', jsPsych.data.get().csv()],

@@ -244,6 +244,7 @@ class Answers:
             "trial_type": "Set, and control if it is one; pulse: of the scanner",
             "response_time": "From the first frame of the clip, s",
             "stimulus_id": "The clip in stimuli.tsv",
+            "stim_file": "Its file in stimuli/",
             "trial": "Number of the trial, from 0",
             "block": "Number of the block, from 1; 0: practice",
             "kind": "trial, practice or catch",
