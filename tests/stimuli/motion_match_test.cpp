@@ -113,6 +113,11 @@ TEST(MotionMatch, RefusesAnApexThatTheMovementCannotHave) {
     const TemporaryFolder folder;
     Json design = steps_design(0);
     design["sets"][0]["clip"] = "${expression}";
+    // A rig by a relative path, as a design beside its heads has it
+    design["sets"][0]["script"]["rig"] =
+        std::filesystem::relative(RISORIUS_SOURCE_DIR "/rigs/adult/rig.json",
+                                  std::filesystem::canonical(folder.path()))
+            .string();
     design["sets"][0]["script"]["events"][0]["intensity"] = 1;
     design["sets"][0]["script"]["events"][0]["onset_s"] = "${onset_s}";
     const auto refusal = [&](const Json& motion) {

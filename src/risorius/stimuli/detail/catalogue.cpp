@@ -182,10 +182,8 @@ std::vector<Column> columns_of(const BatchPlan& plan, const std::vector<Json>& r
          }},
         {"type", described("Kind of the file"),
          [&clips](std::size_t i) { return Json(clip_type(clips[i])); }},
-        {"filename", described("The file, in this folder"),
-         [&clips](std::size_t i) {
-             return Json(clip_files(clips[i]).video.filename().generic_string());
-         }},
+        {"filename", described("The file, in this folder or below"),
+         [&clips](std::size_t i) { return Json(file_in_stimuli(clips[i])); }},
         {"license", described("Licence of the file"), same(plan.dataset.license)},
         {"copyright", described("Who holds the rights"), same(plan.dataset.copyright)},
         {"description", described("What it shows"),

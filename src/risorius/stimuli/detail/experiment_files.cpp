@@ -114,16 +114,16 @@ std::vector<Json> condition_rows(const BatchPlan& plan, const std::vector<Json>&
     for (std::size_t i = 0; i < plan.clips.size(); ++i) {
         const ClipPlan& clip = plan.clips[i];
         if (!is_shown(*plan.experiment, clip.condition)) continue;
-        Json row = json_object(
-            {{"stim_id", clip.condition.clip},
-             {"stim_file", clip_files(clip).video.filename().generic_string()},
-             {"set", clip.condition.set},
-             {"control", clip.condition.control.name()},
-             {"frames", records[i].at("frames")},
-             {"fps", records[i].at("fps")},
-             {"audio_file",
-              clip.sound ? "../stimuli/stim-" + clip.condition.clip + "_audio.wav" : std::string()},
-             {"correct_key", correct_key(*plan.experiment, clip.condition)}});
+        Json row =
+            json_object({{"stim_id", clip.condition.clip},
+                         {"stim_file", file_in_stimuli(clip)},
+                         {"set", clip.condition.set},
+                         {"control", clip.condition.control.name()},
+                         {"frames", records[i].at("frames")},
+                         {"fps", records[i].at("fps")},
+                         {"audio_file", clip.sound ? "../" + clip_files(clip).sound.generic_string()
+                                                   : std::string()},
+                         {"correct_key", correct_key(*plan.experiment, clip.condition)}});
         if (clip.clips.pictures()) row["shown_s"] = clip.clips.shown_s;
         if (is_adaptive(*plan.experiment)) {
             row["level"] = level_of(*plan.experiment, clip, records[i]);

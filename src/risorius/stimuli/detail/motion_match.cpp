@@ -28,7 +28,10 @@ animate::RenderJob job_of(const Json& script, const std::filesystem::path& folde
                           const std::string& quality, const std::string& place,
                           animate::RenderInputs& inputs) {
     animate::RenderRequest request;
-    request.script = folder / place;
+    // Its relative paths start in the folder, so that the place must not look like a path.
+    std::string name = "script of" + place.substr(place.rfind(':') + 1);
+    std::replace(name.begin(), name.end(), '/', ' ');
+    request.script = folder / name;
     request.script_in_memory = JsonCursor::from_json(script, request.script.string());
     request.out = folder / "none.mkv";
     request.quality = quality;
