@@ -3,6 +3,8 @@
 // other programs take.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -14,6 +16,7 @@
 #include "risorius/face/face.h"
 #include "risorius/face/surfaces.h"
 #include "risorius/io/morph_model.h"
+#include "shell.h"
 #include "temporary_folder.h"
 
 namespace risorius::blendshapes {
@@ -61,6 +64,64 @@ double farthest_m(const io::MorphModel& model, const std::vector<Points>& cache)
     return worst;
 }
 
+/// What the add-on makes of a face in Blender; null where it is not installed.
+Json played_in_blender(const fs::path& glb, const fs::path& out) {
+    if (std::system("command -v blender >/dev/null 2>&1") != 0) return {};
+    const fs::path source = RISORIUS_SOURCE_DIR;
+    const ShellResult said =
+        run_shell("blender -b --factory-startup --python '" +
+                  (source / "tests/io/play_in_blender.py").string() + "' -- '" +
+                  (source / "tools/blender/risorius_faces.py").string() + "' '" + glb.string() +
+                  "' '" + out.string() + "' 2>&1");
+    EXPECT_TRUE(fs::exists(out)) << said.output;
+    EXPECT_EQ(said.output.find("Error"), std::string::npos) << said.output;
+    return Json::parse(std::ifstream(out), nullptr, false);
+}
+
+// Correctives are driven by the rule in the file, not by its keys, and the face is the one of the cache.
+void expect_same_in_blender(const Json& blender, const io::MorphModel& model,
+                            const std::vector<Points>& cache) {
+    ASSERT_TRUE(blender.is_object());
+    EXPECT_EQ(blender["fps"], 20);
+    EXPECT_EQ(blender["last_frame"], 7);
+    EXPECT_EQ(blender["note"], "");
+    EXPECT_TRUE(blender["whole_frames"].get<bool>());
+    EXPECT_GT(blender["drivers"].get<int>(), 0);
+    for (const char* name :
+         {"Face", "EyeLeft", "EyeRight", "TeethUpper", "TeethLower", "Tongue", "Lashes"}) {
+        ASSERT_TRUE(blender["meshes"].contains(name)) << name << " of " << blender["meshes"].dump();
+        EXPECT_EQ(blender["meshes"][name]["scale"], Json({1, 1, 1})) << name;
+    }
+    const std::array<double, 3> size{0.2640, 0.2410, 0.3073};
+    for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(blender["meshes"]["Face"]["size_m"][k].get<double>(), size[k], 1e-4);
+    ASSERT_EQ(blender["points"].size(), cache.size());
+    const std::vector<int> vertices = blender["vertices"];
+    double worst = 0;
+    for (std::size_t f = 0; f < cache.size(); ++f) {
+        ASSERT_EQ(blender["points"][f].size(), vertices.size());
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const Json& at = blender["points"][f][i];
+            const Vec3 there(at[0].get<double>(), at[1].get<double>(), at[2].get<double>());
+            worst = std::max(worst, (there - model.vertices.row(vertices[i]).transpose() -
+                                     cache[f].row(vertices[i]).transpose())
+                                        .norm());
+        }
+    }
+    EXPECT_LT(worst, 0.01e-3);
+    // The script that is baked back has the curves of the shapes, and is read back as they are.
+    const Json& script = blender["script"];
+    EXPECT_TRUE(script["channels"].contains("jawOpen")) << script.dump();
+    EXPECT_EQ(script["fps"], 20);
+    for (const auto& [name, channel] : script["channels"].items()) {
+        EXPECT_FALSE(name.starts_with("corrective")) << name;
+        EXPECT_NEAR(channel["keys"].back()[1].get<double>(),
+                    blender["weights"].back()[name].get<double>(), 1e-4);
+        EXPECT_NEAR(blender["weights_of_script"][name].get<double>(),
+                    blender["weights"].back()[name].get<double>(), 1e-4);
+    }
+}
+
 // The smile and the open mouth overlap, so that there is a corrective with a weight.
 TEST(BakedScript, TheAnimationHasWeightsFromZeroToOneAndIsTheCache) {
     const TemporaryFolder folder;
@@ -94,6 +155,10 @@ TEST(BakedScript, TheAnimationHasWeightsFromZeroToOneAndIsTheCache) {
     ASSERT_EQ(model.vertices.rows(), face.head().vertices.rows());
     EXPECT_LT(farthest_m(model, cache), 0.01e-3);
     EXPECT_GT(cache[7].rowwise().norm().maxCoeff(), 3e-3);
+    if (const Json blender =
+            played_in_blender(options.out / "shapes.glb", folder.path() / "blender.json");
+        !blender.is_null())
+        expect_same_in_blender(blender, model, cache);
     for (const MadeShape& made : report.shapes.list)
         EXPECT_LT(made.certificate.rigid_part_m, 0.1e-3) << made.goal.name;
 

@@ -148,6 +148,28 @@ TEST(LowRank, KeepsToItsBudgetByLeavingOutTheFiner) {
     EXPECT_TRUE(made(0).drivers.empty());
 }
 
+TEST(LowRank, WhatIsKeptMakesUpForWhatIsFadedAway) {
+    // Two correctives of the left side; the drivers always meet. The weaker one is above the limit of the fade at a few vertices
+    // only, so that the stronger one can give most of it.
+    const std::vector<DriverField> fields{driver({0, 1}, 10, 10, 2e-3),
+                                          driver({0, 2}, 10, 5, 0.3e-3)};
+    std::vector<PlayedFrame> frames;
+    for (const double w : {0.25, 0.5, 0.75, 1.0}) {
+        const Eigen::Vector3d weights(1, w, w);
+        Points left = Points::Zero(20, 3);
+        for (const DriverField& one : fields) left += one.driver.value(weights) * one.field;
+        frames.push_back({weights, left});
+    }
+    const Compression few{
+        .ridge_weight = 0.25, .fade = {0.02e-3, 0.06e-3}, .budget_bytes = 15L * 12};
+    const LowRank made = low_rank(fields, frames, kRest, kArea, few);
+    EXPECT_LE(made.bytes, 15 * 12);
+    double worst = 0;
+    for (const PlayedFrame& frame : frames)
+        worst = std::max(worst, (played(made, frame.weights) - frame.left).cwiseAbs().maxCoeff());
+    EXPECT_LT(worst, 0.1e-3);
+}
+
 TEST(LowRank, KeepsWhatMattersMostWhenThereIsRoomForFew) {
     // Of the same side: the larger one, unless the smaller one is met far more often
     std::vector<DriverField> fields{driver({0, 1}, 0, 4, 2e-3), driver({0, 2}, 5, 4, 1e-3)};

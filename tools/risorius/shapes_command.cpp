@@ -108,7 +108,7 @@ void add_correctives(CLI::App& command, blendshapes::ShapesOptions& options) {
             "--corrective-megabytes",
             [&options](double mb) { options.corrective_bytes = static_cast<long>(1e6 * mb); },
             "Maximum size of the correctives in shapes.glb: with less space they keep less detail. "
-            "Default: 0.8; for facs 4")
+            "Default: 0.7; for facs 4")
         ->check(CLI::Range(0.0, 2000.0));
 }
 

@@ -29,6 +29,7 @@ struct MorphTarget {
     std::string name;
     std::vector<int> vertex;  ///< ascending
     Points delta;             ///< one row per entry of `vertex`; displacement at weight 1, m
+    double usual_weight = 1;  ///< weights above are rare, so that smaller normals count for less
 };
 
 /// A picture file of a format that glTF knows.
@@ -99,8 +100,8 @@ struct MorphModel {
     std::vector<MorphAnimation> animations;
     Json extras;  ///< an object; its keys are written next to targetNames of the first mesh
     /// true: positions and displacements are integer multiples of 1/32767 of the largest of them, other attributes have 16 bits, and
-    /// normals of targets stand where they turn by more than four degrees instead of two. false: floats, for readers that do not
-    /// know KHR_mesh_quantization.
+    /// normals of targets stand where they turn by more than four degrees at the usual weight instead of three. false: floats, for
+    /// readers that do not know KHR_mesh_quantization.
     bool whole_numbers = false;
 };
 

@@ -17,8 +17,8 @@ namespace risorius::io {
 
 namespace {
 
-// Change of a normal at weight 1; two degrees are not visible, and four hardly
-constexpr double kNoTurn = 0.035, kNoTurnCompact = 0.07;
+// Change of a normal at the usual weight: three degrees are not visible, and four hardly
+constexpr double kNoTurn = 0.052, kNoTurnCompact = 0.07;
 constexpr double kMaxWhole = 32767, kMaxShare = 65535;  // of 16 bits, with and without a sign
 
 using detail::Floats;
@@ -109,7 +109,8 @@ struct TargetFields {
             delta.row(target.vertex[i]) = target.delta.row(static_cast<long>(i));
         turn = vertex_normals(model, model.vertices + delta) - normals;
         for (long v = 0; v < turn.rows(); ++v)
-            if (turn.row(v).norm() < (model.whole_numbers ? kNoTurnCompact : kNoTurn))
+            if (target.usual_weight * turn.row(v).norm() <
+                (model.whole_numbers ? kNoTurnCompact : kNoTurn))
                 turn.row(v).setZero();
     }
 };
@@ -122,14 +123,14 @@ class PartTargets {
         : packer_(packer), part_(part), unit_(unit) {}
 
     int positions(const Points& field) {
-        return unit_ > 0 ? add<short>(field, unit_, still_place_)
-                         : add<float>(field, 1, still_place_);
+        return unit_ > 0 ? add<short>(field, unit_, true, still_place_)
+                         : add<float>(field, 1, true, still_place_);
     }
-    int normals(const Points& field) { return add<float>(field, 1, still_normal_); }
+    int normals(const Points& field) { return add<float>(field, 1, false, still_normal_); }
 
   private:
     template <typename T>
-    int add(const Points& field, double unit, int& still) {
+    int add(const Points& field, double unit, bool with_range, int& still) {
         std::vector<unsigned> at;
         std::vector<T> values;
         for (unsigned i = 0; i < part_.count(); ++i) {
@@ -141,8 +142,9 @@ class PartTargets {
                     std::is_integral_v<T> ? static_cast<double>(std::lround(row[k] / unit))
                                           : row[k]));
         }
-        if (!at.empty()) return packer_.sparse(std::move(at), std::move(values), part_.count());
-        if (still < 0) still = packer_.sparse<T>({}, {}, part_.count());
+        if (!at.empty())
+            return packer_.sparse(std::move(at), std::move(values), part_.count(), with_range);
+        if (still < 0) still = packer_.sparse<T>({}, {}, part_.count(), with_range);
         return still;
     }
 
@@ -356,12 +358,12 @@ class GlbWriter {
                     : packer_.floats(coordinates, TINYGLTF_TYPE_VEC2, false, kVertexData);
         }
         if (part.tint.rows() > 0) {
-            const Floats colours = own.gather(part.tint.unaryExpr(
-                [](double value) { return static_cast<double>(linear_of_srgb(value)); }));
-            primitive.attributes["COLOR_0"] =
-                unit_ > 0
-                    ? packer_.shorts(whole<unsigned short>(colours, 1 / kMaxShare), 3, true, false)
-                    : packer_.floats(colours, TINYGLTF_TYPE_VEC3, false, kVertexData);
+            std::vector<unsigned char> colours;  // with an opacity of 1
+            for (const int v : own.vertex)
+                for (long k = 0; k < 4; ++k)
+                    colours.push_back(static_cast<unsigned char>(
+                        k < 3 ? std::lround(255 * linear_of_srgb(part.tint(v, k))) : 255));
+            primitive.attributes["COLOR_0"] = packer_.quadruples(colours, true);
         }
         if (part.node == model_.skin.node) add_joints(own, primitive);
         return primitive;

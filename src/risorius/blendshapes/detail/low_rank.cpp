@@ -21,9 +21,11 @@ constexpr double kOfOthers = 0.1;  // weight of the use in general, relative to 
 // Factor by which the fade is enlarged while the budget is exceeded
 constexpr double kCoarser = 1.2;
 // A corrective may have this much of its largest weight in the given frames before it is held at 1
-constexpr double kHeadroom = 2;
+constexpr double kHeadroom = 4;
 // Smaller factors of drivers in a corrective, relative to its largest, are dropped
-constexpr double kShareCounts = 1e-3;
+constexpr double kShareCounts = 0.02;
+// When what is kept is fitted again: the mean weight of the fields, relative to a frame, and that of squared changes
+constexpr double kFieldCounts = 0.1, kChangeCounts = 0.01;
 
 /// Fields at the vertices that at least one of them moves, stacked in columns.
 struct Stack {
@@ -157,6 +159,89 @@ SparseShape faded(Points field, const Fade& fade) {
     return sparse(field);
 }
 
+/// What correctives are fitted to: rows of their weights, and of the displacements that are wanted at the vertices of a stack.
+struct Wanted {
+    Eigen::MatrixXd weights;  ///< rows x correctives
+    Eigen::MatrixXd moved;    ///< rows x 3 per vertex
+};
+
+/// What the fields give in the frames, and where each driver alone is at 1, which counts by its use.
+Wanted wanted_of(const Stack& stack, const Eigen::MatrixXd& drivers, const Eigen::VectorXd& use,
+                 const Eigen::MatrixXd& of_drivers) {
+    const Eigen::VectorXd counts = (kFieldCounts / use.mean() * use).cwiseSqrt();
+    const long count = drivers.rows(), all = count + of_drivers.cols();
+    Wanted out{Eigen::MatrixXd(all, of_drivers.rows()), Eigen::MatrixXd(all, stack.column.rows())};
+    const auto held = [](const Eigen::MatrixXd& weights) {
+        return weights.cwiseMax(0.0).cwiseMin(1.0);
+    };
+    out.weights.topRows(count) = held(drivers * of_drivers.transpose());
+    out.weights.bottomRows(of_drivers.cols()) = counts.asDiagonal() * held(of_drivers.transpose());
+    out.moved.topRows(count) = drivers * stack.column.transpose();
+    out.moved.bottomRows(of_drivers.cols()) = counts.asDiagonal() * stack.column.transpose();
+    return out;
+}
+
+// Fits the faded correctives again, vertex by vertex, so that those that are kept there make up for what the others have lost.
+// A change is in proportion to how little the corrective is faded, so that it ends as smoothly as before.
+void fit_again(std::vector<SparseShape>& shapes, const std::vector<Points>& whole,
+               const Wanted& wanted, const Stack& stack) {
+    struct Kept {
+        std::size_t shape;
+        long row;
+        double share;
+    };
+    std::vector<std::vector<Kept>> kept(static_cast<std::size_t>(
+        stack.vertex.empty() ? 0
+                             : 1 + *std::max_element(stack.vertex.begin(), stack.vertex.end())));
+    for (std::size_t c = 0; c < shapes.size(); ++c)
+        for (std::size_t i = 0; i < shapes[c].vertex.size(); ++i) {
+            const int v = shapes[c].vertex[i];
+            const auto row = static_cast<long>(i);
+            kept[static_cast<std::size_t>(v)].push_back(
+                {c, row, shapes[c].delta.row(row).norm() / whole[c].row(v).norm()});
+        }
+    const Eigen::MatrixXd normal = wanted.weights.transpose() * wanted.weights,
+                          moved = wanted.weights.transpose() * wanted.moved;
+    for (std::size_t at = 0; at < stack.vertex.size(); ++at) {
+        const std::vector<Kept>& here = kept[static_cast<std::size_t>(stack.vertex[at])];
+        const auto count = static_cast<long>(here.size());
+        if (count == 0) continue;
+        Eigen::MatrixXd left(count, 3), own(count, count);
+        for (long i = 0; i < count; ++i) {
+            const Kept& a = here[static_cast<std::size_t>(i)];
+            const auto shape = static_cast<long>(a.shape);
+            left.row(i) = moved.block<1, 3>(shape, 3 * static_cast<long>(at));
+            for (long k = 0; k < count; ++k) {
+                const Kept& b = here[static_cast<std::size_t>(k)];
+                const double both = normal(shape, static_cast<long>(b.shape));
+                left.row(i) -= both * shapes[b.shape].delta.row(b.row);
+                own(i, k) = a.share * both * b.share;
+            }
+            left.row(i) *= a.share;
+        }
+        own.diagonal().array() += kChangeCounts;
+        const Eigen::MatrixXd change = solved_symmetric(own, left);
+        for (long i = 0; i < count; ++i) {
+            const Kept& a = here[static_cast<std::size_t>(i)];
+            shapes[a.shape].delta.row(a.row) += a.share * change.row(i);
+        }
+    }
+}
+
+/// The fields, faded as little as the budget allows, all alike. Returns their bytes.
+long fade_to_budget(const std::vector<Points>& whole, const Compression& how,
+                    std::vector<SparseShape>& out) {
+    for (Fade fade = how.fade;; fade.none_m *= kCoarser, fade.all_m *= kCoarser) {
+        out.clear();
+        long bytes = 0;
+        for (const Points& field : whole) {
+            out.push_back(faded(field, fade));
+            bytes += how.bytes_of_a_vertex * static_cast<long>(out.back().vertex.size());
+        }
+        if (bytes <= how.budget_bytes) return bytes;
+    }
+}
+
 }  // namespace
 
 LowRank low_rank(std::vector<DriverField> fields, const std::vector<PlayedFrame>& frames,
@@ -167,27 +252,31 @@ LowRank low_rank(std::vector<DriverField> fields, const std::vector<PlayedFrame>
     const Eigen::MatrixXd drivers = drivers_in(frames, fields);
     fit(stack, frames, drivers, how.ridge_weight);
 
-    const Eigen::VectorXd root_use = use_of(fields, drivers).cwiseSqrt(),
+    const Eigen::VectorXd use = use_of(fields, drivers), root_use = use.cwiseSqrt(),
                           root_area = area.cwiseSqrt();
     std::array<HalfCorrectives, 2> side;
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
         side[k] = side_of(stack, k == 0, rest, root_area, root_use, drivers, how);
 
-    // The same fade for all correctives, as fine as the budget allows.
-    for (Fade fade = how.fade;; fade.none_m *= kCoarser, fade.all_m *= kCoarser) {
-        out.correctives.clear();
-        out.bytes = 0;
-        for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
-            for (std::size_t c = 0; c < side[k].field.size(); ++c) {
-                SparseShape shape = faded(side[k].field[c], fade);
-                if (shape.empty()) continue;
-                out.bytes += how.bytes_of_a_vertex * static_cast<long>(shape.vertex.size());
-                out.correctives.push_back(
-                    {(k == 0 ? "correctiveLeft" : "correctiveRight") + side[k].ending[c],
-                     std::move(shape), side[k].of_drivers[c]});
-            }
-        if (out.bytes <= how.budget_bytes) break;
-    }
+    std::vector<Points> whole;
+    std::vector<std::string> names;
+    std::vector<Eigen::VectorXd> of_drivers;
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
+        for (std::size_t c = 0; c < side[k].field.size(); ++c) {
+            whole.push_back(std::move(side[k].field[c]));
+            names.push_back((k == 0 ? "correctiveLeft" : "correctiveRight") + side[k].ending[c]);
+            of_drivers.push_back(std::move(side[k].of_drivers[c]));
+        }
+    std::vector<SparseShape> shapes;
+    out.bytes = fade_to_budget(whole, how, shapes);
+    Eigen::MatrixXd factors(static_cast<long>(whole.size()), static_cast<long>(fields.size()));
+    for (std::size_t c = 0; c < whole.size(); ++c)
+        factors.row(static_cast<long>(c)) = of_drivers[c].transpose();
+    fit_again(shapes, whole, wanted_of(stack, drivers, use, factors), stack);
+    for (std::size_t c = 0; c < whole.size(); ++c)
+        if (!shapes[c].empty())
+            out.correctives.push_back(
+                {std::move(names[c]), std::move(shapes[c]), std::move(of_drivers[c])});
     if (out.correctives.empty()) return out;
     for (DriverField& one : fields) out.drivers.push_back(std::move(one.driver));
     return out;
@@ -218,16 +307,15 @@ LowRank one_of_each(std::vector<DriverField> fields, const std::vector<PlayedFra
             kept[t].field.row(stack.vertex[i]) = stack.column.col(static_cast<long>(t))
                                                      .segment<3>(3 * static_cast<long>(i))
                                                      .transpose();
+    std::vector<Points> whole;
+    for (const DriverField& one : kept) whole.push_back(one.field);
     std::vector<SparseShape> shapes;
-    for (Fade fade = how.fade;; fade.none_m *= kCoarser, fade.all_m *= kCoarser) {
-        shapes.clear();
-        out.bytes = 0;
-        for (const DriverField& one : kept) {
-            shapes.push_back(faded(one.field, fade));
-            out.bytes += how.bytes_of_a_vertex * static_cast<long>(shapes.back().vertex.size());
-        }
-        if (out.bytes <= how.budget_bytes) break;
-    }
+    out.bytes = fade_to_budget(whole, how, shapes);
+    const auto all = static_cast<long>(kept.size());
+    const Eigen::MatrixXd values = drivers_in(frames, kept);
+    fit_again(shapes, whole,
+              wanted_of(stack, values, use_of(kept, values), Eigen::MatrixXd::Identity(all, all)),
+              stack);
     for (std::size_t t = 0; t < kept.size(); ++t)
         if (!shapes[t].empty()) {
             out.drivers.push_back(std::move(kept[t].driver));

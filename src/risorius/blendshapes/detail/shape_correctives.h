@@ -21,7 +21,7 @@ struct CorrectiveOptions {
     double tolerance_m = 0.3e-3;
     double fade_m = 0.1e-3;  ///< smaller displacements of a corrective are removed
     /// Limit of the bytes of all correctives in a file; small displacements are dropped to meet it
-    long budget_bytes = 800'000;
+    long budget_bytes = 700'000;
     /// True: each corrective follows one driver and has its name (one_of_each()); false: sums of drivers (low_rank()), which are ten
     /// times as accurate at the same size
     bool named = false;

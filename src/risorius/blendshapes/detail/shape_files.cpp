@@ -34,10 +34,13 @@ Vec3 in_mesh_units(const rig::Head& head, const blendshapes::SparseShape& shape,
            head.frame.metres_per_unit;
 }
 
-// With five digits: there are thousands of them.
+// Weights of correctives of many terms stay below: they are scaled for four times what is seen.
+constexpr double kUsualWeight = 0.5;
+
+// With four digits: there are thousands of them.
 double shortened(double value) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.5g", value);
+    std::snprintf(text, sizeof text, "%.4g", value);
     return std::strtod(text, nullptr);
 }
 
@@ -68,7 +71,8 @@ io::MorphModel morph_model(const scene::RigFiles& files, const face::Face& face,
         if (!driver.fades_with.empty()) rule["fades_with"] = names_of(driver.fades_with);
     }
     for (const blendshapes::Corrective& corrective : linear.correctives) {
-        model.targets.push_back({corrective.name, corrective.shape.vertex, corrective.shape.delta});
+        model.targets.push_back({corrective.name, corrective.shape.vertex, corrective.shape.delta,
+                                 corrective.follows() ? 1 : kUsualWeight});
         Json& listed = correctives.emplace_back(json_object({{"name", corrective.name}}));
         if (const std::optional<long> driver = corrective.follows()) {
             listed["term"] = linear.drivers[static_cast<std::size_t>(*driver)].name;
@@ -76,7 +80,7 @@ io::MorphModel morph_model(const scene::RigFiles& files, const face::Face& face,
         }
         listed["of_terms"] = Json::array();
         for (const double fraction : corrective.of_drivers)
-            listed["of_terms"].push_back(shortened(fraction));
+            listed["of_terms"].push_back(fraction == 0 ? Json(0) : Json(shortened(fraction)));
     }
     Json on_top = Json::object();
     for (const MadeShape& made : shapes.list)

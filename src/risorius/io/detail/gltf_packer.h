@@ -6,6 +6,7 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -85,16 +86,16 @@ class GltfPacker {
         return add(accessor);
     }
     /// Writes `count` vectors that are zero except for the listed ones. At least one is listed, because some readers ignore
-    /// accessors without numbers.
+    /// accessors without numbers. `with_range`: with the least and the largest values, as positions need them.
     template <typename T>
-    int sparse(std::vector<unsigned> at, std::vector<T> values, unsigned count) {
+    int sparse(std::vector<unsigned> at, std::vector<T> values, unsigned count, bool with_range) {
         if (at.empty()) {
             at = {0};
             values.assign(3, T{0});
         }
         std::vector<T> all = values;
         if (at.size() < count) all.insert(all.end(), 3, T{0});
-        tinygltf::Accessor accessor = described(all, TINYGLTF_TYPE_VEC3, true);
+        tinygltf::Accessor accessor = described(all, TINYGLTF_TYPE_VEC3, with_range);
         accessor.count = count;
         accessor.bufferView = zeros_;
         accessor.sparse.isSparse = true;
@@ -110,7 +111,7 @@ class GltfPacker {
         return add(accessor);
     }
 
-    /// Whole numbers of a vertex, four of them: joints, or shares that are "normalized"
+    /// Whole numbers of a vertex, four of them: joints, or shares and colours that are "normalized"
     template <typename T>
     int quadruples(const std::vector<T>& values, bool normalized) {
         tinygltf::Accessor accessor = described(values, TINYGLTF_TYPE_VEC4, false);
@@ -135,6 +136,14 @@ class GltfPacker {
         if (std::is_same_v<T, unsigned char>) return TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
         return TINYGLTF_COMPONENT_TYPE_FLOAT;
     }
+    /// A number with few digits that is this float when it is read as one.
+    static double shortest(float value) {
+        char text[32];
+        const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+        double out = value;
+        std::from_chars(text, end, out);
+        return out;
+    }
     template <typename T>
     static tinygltf::Accessor described(const std::vector<T>& values, int type, bool with_range) {
         const auto width =
@@ -152,6 +161,8 @@ class GltfPacker {
             accessor.maxValues[i % width] =
                 std::max(accessor.maxValues[i % width], static_cast<double>(values[i]));
         }
+        for (std::vector<double>* ends : {&accessor.minValues, &accessor.maxValues})
+            for (double& end : *ends) end = shortest(static_cast<float>(end));
         return accessor;
     }
     template <typename T>
