@@ -15,7 +15,7 @@
 #include "risorius/blendshapes/detail/shape_goals.h"
 #include "risorius/blendshapes/detail/shape_weights.h"
 #include "risorius/face/face.h"
-#include "risorius/motion/detail/reduce_keys.h"
+#include "risorius/motion/reduce_keys.h"
 #include "risorius/rig/rig_description.h"
 #include "risorius/scene/landmark_points.h"
 #include "risorius/scene/rig_files.h"

@@ -24,6 +24,8 @@ void print(const inverse::SolveReport& report, const inverse::SolveOptions& opti
     for (const inverse::SolvedDrive& one : report.solved)
         std::printf("  %-24s %9.3f %9.3f %9.3f %8.2f\n", one.name.c_str(), 1e3 * one.given_rms_m,
                     1e3 * one.rms_m, 1e3 * one.max_m, one.highest);
+    for (const inverse::UnitCurve& curve : report.curves)
+        std::printf("  %-24s %zu keys\n", curve.channel.c_str(), curve.keys.size());
     for (const std::string& note : report.notes) std::printf("  note: %s\n", note.c_str());
     std::printf("all: %.3f mm RMS left; script: %s\n", 1e3 * report.rms_m(),
                 (options.out / "script.json").generic_string().c_str());
@@ -84,6 +86,16 @@ void add_solve(CLI::App& app) {
         "--landmarks", options.landmarks,
         "Instead of --shapes: a table with the columns time_s and ID.x_mm, ID.y_mm, ID.z_mm of "
         "some landmarks, as from render --landmarks. The first row must show the neutral face");
+    command->add_option(
+        "--as", options.as,
+        "What to find: \"units\" (few action units with few keys, single muscles only "
+        "for what no unit explains; of --landmarks) or \"muscles\". Default: muscles");
+    command
+        ->add_option(
+            "--with", options.with,
+            "Units that are used only if they are named here: pressure (in the mouth), tongue")
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command->add_option("--only", options.only, "Names of shapes, separated by commas")
         ->delimiter(',')
         ->allow_extra_args(false);

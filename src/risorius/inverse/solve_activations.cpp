@@ -12,6 +12,7 @@
 #include "risorius/core/error.h"
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
+#include "risorius/core/known_names.h"
 #include "risorius/core/parallel.h"
 #include "risorius/face/face.h"
 #include "risorius/face/statics.h"
@@ -199,6 +200,19 @@ class Solver {
     const std::vector<ActivationUnknown>& unknowns_;
 };
 
+// The curves of units. Recorded motion must not lag, so that they set activations.
+Json channels_of(const std::vector<UnitCurve>& curves) {
+    Json out = Json::object();
+    for (const UnitCurve& curve : curves) {
+        Json keys = Json::array();
+        for (const track::Key& key : curve.keys)
+            keys.push_back({std::round(1e6 * key.time_s) / 1e6, std::round(1e4 * key.value) / 1e4});
+        out[curve.channel] =
+            json_object({{"keys", keys}, {"interpolation", "linear"}, {"activation", true}});
+    }
+    return out;
+}
+
 // A script of every shape in turn, or of the frames of the sequence; activations are set directly.
 Json script_of(const SolveReport& report, const SolveOptions& options) {
     const double each_s = 2 * kRamp_s + kHold_s;
@@ -236,6 +250,7 @@ Json script_of(const SolveReport& report, const SolveOptions& options) {
     for (int k = 0; k < track::kKinematicCount; ++k)
         add(std::string(track::kinematic_channels()[static_cast<std::size_t>(k)].name), false,
             [k](const track::Drive& drive) { return drive.at(static_cast<Kinematic>(k)); });
+    if (!report.curves.empty()) channels = channels_of(report.curves);
     return json_object(
         {{"format", "risorius-script"},
          {"version", 1},
@@ -248,6 +263,52 @@ Json script_of(const SolveReport& report, const SolveOptions& options) {
          {"seed", 1},
          {"motion", "quasi_static"},
          {"channels", channels}});
+}
+
+// Whether units are sought; checks the options that say so.
+bool solves_units(const SolveOptions& options) {
+    const bool sequence = !options.landmarks.empty();
+    if (!options.as.empty()) index_of_name(option_name("as"), options.as, {"units", "muscles"});
+    for (const std::string& one : options.with)
+        index_of_name(option_name("with"), one, {"pressure", "tongue"});
+    const bool out = options.as == "units";
+    if (out && !sequence)
+        throw Error(option_name("as"), "\"muscles\" for shapes, or " + option_name("landmarks"),
+                    "\"units\"");
+    if (!out && !options.with.empty())
+        throw Error(option_name("with"), option_name("as") + " \"units\"", "\"muscles\"");
+    return out;
+}
+
+void solve_as_units(face::Face& face, const scene::RigFiles& files, const FitTarget& given,
+                    const SolveOptions& options, const ProgressMonitor& monitor,
+                    SolveReport& report) {
+    const auto with = [&](const char* what) {
+        return std::find(options.with.begin(), options.with.end(), what) != options.with.end();
+    };
+    UnitSolveOptions how;
+    how.pressure = with("pressure");
+    how.tongue = with("tongue");
+    how.rest = {.iterations = kIterations,
+                .tolerance_m = kTolerance_m,
+                .planes_m = kTolerance_m,
+                .stopped = monitor.stopped};
+    UnitSolution found = solve_units(face, files, given, how, monitor);
+    for (std::size_t t = 0; t < given.fields.size(); ++t) {
+        SolvedDrive& one = report.solved.emplace_back();
+        one.name = given.names[t];
+        one.time_s = given.times_s[t];
+        one.drive = std::move(found.drives[t]);
+        one.rms_m = found.rms_m[t];
+        one.max_m = found.max_m[t];
+        one.given_rms_m = std::sqrt(squares(given.fields[t], given.weight) / given.weight.sum());
+        one.highest = one.drive.excitation.cwiseAbs().maxCoeff();
+        one.simulated = found.simulated[t];
+    }
+    report.curves = std::move(found.curves);
+    if (report.curves.empty())
+        throw Error(options.landmarks.string(), "landmarks that move as an action unit does",
+                    "none that does");
 }
 
 }  // namespace
@@ -263,6 +324,7 @@ Json SolveReport::json() const {
     for (const SolvedDrive& one : solved) {
         Json entry = json_object({{"name", one.name}});
         if (sequence) entry["time_s"] = one.time_s;
+        if (!curves.empty()) entry["simulated"] = one.simulated;
         entry["rms_mm"] = 1e3 * one.rms_m;
         entry["max_mm"] = 1e3 * one.max_m;
         entry["given_rms_mm"] = 1e3 * one.given_rms_m;
@@ -278,6 +340,7 @@ Json SolveReport::json() const {
                              {"points", points},
                              {"rms_mm", 1e3 * rms_m()},
                              {"solved", list}});
+    for (const UnitCurve& curve : curves) json["curves"][curve.channel] = curve.keys.size();
     if (!notes.empty()) json["notes"] = notes;
     return json;
 }
@@ -300,6 +363,7 @@ SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor
             throw Error(name, "a number in [0, 1000]", format_number(value));
     if (options.fps < 1 || options.fps > 240)
         throw Error(option_name("fps"), "an integer in [1, 240]", std::to_string(options.fps));
+    const bool as_units = solves_units(options);
     const scene::RigFiles files = scene::read_rig_files(options.rig, monitor.stopped);
     report::AtomicFolder folder(options.out);
     monitor.report(0, "building the face");
@@ -328,7 +392,6 @@ SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor
         given = options.meshes.empty() ? given_shapes(options.shapes, options.only, files, face)
                                        : given_meshes(options.meshes, files, face, monitor.stopped);
     }
-    const std::vector<ActivationUnknown> unknowns = unknowns_of(files, face.head(), given.weight);
     SolveReport report;
     report.name = files.rig.name;
     report.rig = options.rig.generic_string();
@@ -340,8 +403,14 @@ SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor
     report.points = static_cast<int>((given.weight.array() > 0).count());
     report.channels = files.rig.channels();
     report.notes = given.notes;
-    const Solver solver(options, files, given, unknowns);
-    report.solved = report.sequence ? solver.sequence(monitor) : solver.shapes(monitor);
+    if (as_units) {
+        solve_as_units(face, files, given, options, monitor, report);
+    } else {
+        const std::vector<ActivationUnknown> unknowns =
+            unknowns_of(files, face.head(), given.weight);
+        const Solver solver(options, files, given, unknowns);
+        report.solved = report.sequence ? solver.sequence(monitor) : solver.shapes(monitor);
+    }
 
     report::write_text(folder.partial() / "script.json",
                        json_text(script_of(report, options), 1) + "\n");

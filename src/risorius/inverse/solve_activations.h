@@ -12,6 +12,8 @@
 ///
 /// Shapes are solved independently, each from rest. A frame of a sequence starts from the solution of the frame before.
 /// Afterwards all frames are solved once more, backwards in time, with the temporal term for both neighbours.
+///
+/// A sequence may be solved as action units instead, see detail/unit_solver.h: few curves with few keys.
 #pragma once
 
 #include <filesystem>
@@ -20,6 +22,7 @@
 
 #include "risorius/core/json_cursor.h"
 #include "risorius/core/progress_monitor.h"
+#include "risorius/inverse/detail/unit_solver.h"
 #include "risorius/inverse/fit_activations.h"
 #include "risorius/track/channels.h"
 
@@ -36,6 +39,10 @@ struct SolveOptions {
     std::vector<std::string> only = {};    ///< names in `shapes`; empty: all
     std::string quality = "preview";
     double l1_weight = 2e-4, l2_weight = 2e-4, temporal_weight = 2e-2;
+    /// "units" (sequences only) or "muscles"; empty: muscles
+    std::string as = {};
+    std::vector<std::string> with =
+        {};        ///< "pressure" (in the mouth), "tongue": used by units only if they are named
     int fps = 30;  ///< maximum number of frames of a sequence that are solved per second
     /// Number of shapes that are solved at the same time; results do not depend on it
     int threads = 0;
@@ -49,6 +56,8 @@ struct SolvedDrive {
     double rms_m = 0, max_m = 0;  ///< error |u - g| over the vertices or landmarks with weight
     double given_rms_m = 0;       ///< RMS of g
     double highest = 0;           ///< largest activation of a muscle
+    /// Whether its error was simulated; else it is estimated between frames whose error was
+    bool simulated = true;
 };
 
 /// The result of solve_activations().
@@ -58,6 +67,7 @@ struct SolveReport {
     int points = 0;  ///< number of vertices or landmarks with weight
     track::ChannelTable channels;
     std::vector<SolvedDrive> solved;
+    std::vector<UnitCurve> curves;   ///< of a sequence that was solved as units
     std::vector<std::string> notes;  ///< values of landmarks that were missing and are bridged
 
     double rms_m() const;  ///< RMS over all shapes or frames, equally weighted

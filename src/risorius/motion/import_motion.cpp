@@ -9,7 +9,7 @@
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
-#include "risorius/motion/detail/reduce_keys.h"
+#include "risorius/motion/reduce_keys.h"
 #include "risorius/rig/rig_description.h"
 #include "risorius/track/channels.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/motion/detail/reduce_keys.h"
+#include "risorius/motion/reduce_keys.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// A recorded smile comes back under the names of its action units, in few curves with few keys.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "paths.h"
+#include "risorius/core/error.h"
+#include "risorius/face/face.h"
+#include "risorius/inverse/solve_activations.h"
+#include "risorius/rig/expression_drive.h"
+#include "risorius/scene/landmark_points.h"
+#include "risorius/scene/rig_files.h"
+#include "risorius/track/script.h"
+#include "risorius/track/timeline.h"
+#include "temporary_folder.h"
+
+namespace risorius::inverse {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kSmiling = fs::path(RISORIUS_SOURCE_DIR) / "rigs/adult/rig.json";
+
+/// A smile of two action units at a share of its height.
+track::Drive smile_at(const scene::RigFiles& files, double share) {
+    track::Expansion sum = track::Expansion::none(files.rig.channels());
+    for (const auto& [unit, height] : {std::pair{"AU6", 0.54}, {"AU12", 0.72}})
+        sum.add(rig::expansion_named(files.rig, unit).value(), files.rig.facs.find(unit)->curve,
+                height * share);
+    return rig::clamped_drive(sum, files.rig.channels());
+}
+
+TEST(SolveUnits, ASmileIsNamedAndHasFewKeys) {
+    const scene::RigFiles files = scene::read_rig_files(kSmiling);
+    face::Face face(files.rig, files.mesh, face::quality_named("preview"), files.place());
+    const scene::LandmarkPoints points(face.head(), files.rig);
+    track::Drive rest;
+    rest.excitation = Eigen::VectorXd::Zero(files.rig.channels().column_count());
+    face.start([&](double) { return rest; });
+    const TemporaryFolder folder;
+    const fs::path table = folder.path() / "seen.tsv";
+    constexpr int kFrames = 13;
+    {
+        std::ofstream out(table);
+        out << "time_s";
+        for (const std::string& id : points.ids())
+            for (const char axis : {'x', 'y', 'z'}) out << "\t" << id << "." << axis << "_mm";
+        for (int f = 0; f < kFrames; ++f) {
+            const track::Drive drive =
+                smile_at(files, std::pow(std::sin(3.14159265 * f / (kFrames - 1)), 2));
+            face.solve_equilibrium(drive.excitation, drive, {.iterations = face::kRestIterations});
+            const Points vertices = face.pose().vertices;
+            out << "\n" << f / 15.0;
+            for (const std::string& id : points.ids())
+                for (long k = 0; k < 3; ++k) out << "\t" << 1e3 * points.at(id, vertices)[k];
+        }
+        out << "\n";
+    }
+    const SolveReport found = solve_activations({.rig = kSmiling,
+                                                 .out = folder.path() / "solved",
+                                                 .landmarks = table,
+                                                 .as = "units",
+                                                 .fps = 30});
+    ASSERT_EQ(found.solved.size(), static_cast<std::size_t>(kFrames));
+    EXPECT_LE(found.curves.size(), 8u);
+    std::map<std::string, double> highest;
+    std::size_t keys = 0;
+    std::string listed;
+    for (const UnitCurve& curve : found.curves) {
+        listed += curve.channel + " ";
+        keys += curve.keys.size();
+        for (const track::Key& key : curve.keys)
+            highest[curve.channel] = std::max(highest[curve.channel], key.value);
+    }
+    SCOPED_TRACE(listed);
+    EXPECT_LE(keys, 60u);
+    EXPECT_NEAR(highest["AU12"], 0.72, 0.1);
+    EXPECT_NEAR(highest["AU6"], 0.54, 0.15);
+    EXPECT_LT(found.rms_m(), 0.1e-3);
+    EXPECT_TRUE(found.solved[6].simulated);
+    // The script sets activations, so that it does not lag behind the recording.
+    const track::ChannelTable channels = files.rig.channels();
+    const track::ScriptDescription script = track::read_script(
+        folder.path() / "solved/script.json", channels, files.rig.facs, files.rig.expressions);
+    const track::Drive top = track::Timeline(script, channels).at(0.4);
+    const int pull = channels.column("zygomaticus_major", Side::kLeft);
+    EXPECT_NEAR(top.activation[pull], found.solved[6].drive.excitation[pull], 0.02);
+    // What moves no face is refused, and so are words that mean nothing.
+    EXPECT_THROW(
+        solve_activations(
+            {.rig = kSmiling, .out = folder.path() / "none", .landmarks = table, .as = "bones"}),
+        Error);
+    EXPECT_THROW(
+        solve_activations(
+            {.rig = kSmiling, .out = folder.path() / "none", .meshes = {table}, .as = "units"}),
+        Error);
+    EXPECT_THROW(solve_activations({.rig = kSmiling,
+                                    .out = folder.path() / "none",
+                                    .landmarks = table,
+                                    .as = "muscles",
+                                    .with = {"tongue"}}),
+                 Error);
+}
+
+}  // namespace
+}  // namespace risorius::inverse
