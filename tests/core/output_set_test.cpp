@@ -9,6 +9,8 @@
 
 #include <fstream>
 #include <functional>
+#include <memory>
+#include <thread>
 
 #include "message_of.h"
 #include "risorius/core/detail/private_folder.h"
@@ -278,6 +280,26 @@ TEST(OutputSet, IsGoneWhenItIsAbandonedAndNoLongerCommits) {
             ::_exit(0);
         }
         ::_exit(4);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST(OutputSet, IsNotCutOffWhileItRemovesWhatItWrote) {
+    const TemporaryFolder folder;
+    const pid_t child = ::fork();
+    if (child == 0) {
+        auto set = std::make_unique<OutputSet>(folder / "made");
+        const fs::path written = set->folder(folder / "made/a");
+        for (int i = 0; i < 3000; ++i) write_file(written / std::to_string(i), "a");
+        std::thread removing([&] { set.reset(); });
+        while (is_private_output(written)) {
+        }
+        // As who ends the program does: as soon as there is nothing that it would cut off.
+        while (!abandon_outputs()) {
+        }
+        ::_exit(folder.listing().empty() ? 0 : 3);
     }
     int status = 0;
     ::waitpid(child, &status, 0);

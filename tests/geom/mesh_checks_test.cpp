@@ -92,6 +92,24 @@ TEST(MeshChecks, EveryVertexThatIsNotFiniteIsCounted) {
     EXPECT_NE(found[0].find("; 10 such vertices"), std::string::npos);
 }
 
+TEST(MeshChecks, AnEdgeOfManyFacesNamesTheFirstOnes) {
+    constexpr int kFaces = 5000;
+    PolygonMesh mesh;
+    mesh.group_names = {"skin"};
+    mesh.positions = Points::Random(kFaces + 2, 3) * 0.1;
+    for (int f = 0; f < kFaces; ++f) {
+        mesh.corner_vertex.insert(mesh.corner_vertex.end(), {0, 1, f + 2});
+        mesh.face_begin.push_back(static_cast<int>(mesh.corner_vertex.size()));
+        mesh.face_group.push_back(0);
+    }
+    const auto found = messages(inspect_mesh(mesh, "fans", {}), MeshCheck::kNonManifoldEdge);
+    ASSERT_FALSE(found.empty());
+    EXPECT_NE(found[0].find("found 5000, faces 0, 1, 2, 3, 4, 5, 6, 7, 8, 9 ... (group"),
+              std::string::npos)
+        << found[0];
+    EXPECT_LT(found[0].size(), 300u);
+}
+
 TEST(MeshChecks, AFlippedFaceIsFoundAtEachOfItsSides) {
     PolygonMesh mesh = ball();
     std::swap(mesh.corner_vertex[3 * 100], mesh.corner_vertex[3 * 100 + 1]);

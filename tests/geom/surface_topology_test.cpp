@@ -68,6 +68,17 @@ TEST(SurfaceTopology, TwoHolesTouchingInAVertexAreTwoLoops) {
     EXPECT_EQ(loops[2], (std::vector<int>{12, 17, 18, 13}));
 }
 
+TEST(SurfaceTopology, ALongBoundaryIsWalkedOnce) {
+    // A fan: each of its vertices lies on the boundary. Searching the whole chain at each step would take an hour.
+    constexpr int kCount = 1000000;
+    Triangles fan(kCount - 2, 3);
+    for (int t = 0; t < fan.rows(); ++t) fan.row(t) << 0, t + 1, t + 2;
+    const auto loops = boundary_loops(fan, surface_edges(fan));
+    ASSERT_EQ(loops.size(), 1u);
+    ASSERT_EQ(loops[0].size(), static_cast<std::size_t>(kCount));
+    for (int v = 0; v < kCount; ++v) ASSERT_EQ(loops[0][v], v);
+}
+
 TEST(SurfaceTopology, PiecesAreCountedAndNumberedByTheirFirstTriangle) {
     Triangles tri(4, 3);
     tri << 6, 7, 8, 0, 1, 2, 2, 3, 4, 8, 9, 6;

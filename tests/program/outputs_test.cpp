@@ -287,6 +287,24 @@ TEST(Outputs, OfARunWithoutMemoryAreGone) {
     EXPECT_EQ(folder.listing(), Names{"clip.json"});
 }
 
+// llvmpipe and its compiler crash when they get none.
+TEST(Outputs, WithLittleMemoryToDrawARunEndsByItself) {
+    const Folder folder;
+    const std::string render = clip_in(folder);
+    bool refused = false;
+    for (const int megabytes : {500, 550, 600, 700, 800, 900}) {
+        const Outcome done = run(render + "-o x.mp4", folder.path(),
+                                 "ulimit -v " + std::to_string(megabytes) + "000; ");
+        SCOPED_TRACE(std::to_string(megabytes) + " MB: " + done.errors);
+        if (done.code == 0) continue;
+        EXPECT_EQ(done.code, 1);
+        EXPECT_NE(done.errors.find("not enough memory"), std::string::npos);
+        EXPECT_EQ(folder.listing(), Names{"clip.json"});
+        refused |= done.errors.find("to draw: expected 640 MB more") != std::string::npos;
+    }
+    EXPECT_TRUE(refused);
+}
+
 TEST(Outputs, HaveARecordWhateverTheirName) {
     const Folder folder;
     const std::string name = "caf\xe9.mp4";

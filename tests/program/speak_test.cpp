@@ -4,8 +4,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "paths.h"
+#include "risorius/core/json_text.h"
+#include "risorius/core/sha256.h"
 #include "shell.h"
 #include "temporary_folder.h"
 
@@ -72,6 +75,39 @@ TEST_F(Speak, AVideoWithSpeechHasItsLabelsBesideIt) {
     EXPECT_NE(labels.find("xmax = 1\n"), std::string::npos);
     EXPECT_NE(labels.find("name = \"visemes\""), std::string::npos);
     EXPECT_NE(labels.find("xmin = 0.6\n"), std::string::npos) << labels;  // the p
+}
+
+TEST_F(Speak, NothingIsLeftWhenTheVideoCannotBeMade) {
+    write("anna.ctm", "anna 1 0.15 0.10 AA1\nanna 1 0.25 0.09 P\nanna 1 0.34 0.12 AA0\n");
+    // An ending that no video has, an option that is no number, and one that is found wrong when the script is there
+    for (const char* wrong : {"-o a.xyz", "-o a.json --jaw nan", "-o a.json --jaw ''",
+                              "-o a.mp4 --passes 0 --camera moon", "-o a.mp4 --size 63x63"}) {
+        const auto [code, said] = speak("--labels anna.ctm --fps 5 --draft " + std::string(wrong));
+        EXPECT_EQ(code, 2) << wrong << ": " << said;
+        EXPECT_EQ(folder_.listing(), std::set<std::string>{"anna.ctm"}) << wrong;
+    }
+}
+
+TEST_F(Speak, AScriptAndItsUtteranceAppearTogetherAndAreReadBefore) {
+    write("anna.ctm", "anna 1 0.15 0.10 AA1\nanna 1 0.25 0.09 P\nanna 1 0.34 0.12 AA0\n");
+    const auto [code, said] = speak(
+        "--labels anna.ctm --fps 5 --draft --passes 0 --size 64x64 --json -o out/a.mp4 "
+        "2>/dev/null");
+    ASSERT_EQ(code, 0) << said;
+    const Json report = json_or_null(said);
+    ASSERT_TRUE(report.is_object()) << said;
+    EXPECT_EQ(report.at("phones"), 4);
+    EXPECT_EQ(report.at("closures"), 1);
+    for (const char* file : {"out/a.mp4", "out/a.mp4.json", "out/a.mp4.frames.tsv",
+                             "out/a.script.json", "out/a.utterance.json", "out/a.speech.tsv"})
+        EXPECT_TRUE(std::filesystem::exists(folder_ / file)) << file;
+    // The record has the checksum of the script that was written.
+    const std::string record = bytes_of(folder_ / "out/a.mp4.json");
+    EXPECT_NE(record.find(sha256_of_file(folder_ / "out/a.script.json")), std::string::npos)
+        << record;
+    // The same again, in place of the former ones
+    EXPECT_EQ(speak("--labels anna.ctm --fps 5 --draft --passes 0 --size 64x64 -o out/a.mp4").code,
+              0);
 }
 
 TEST_F(Speak, AlignRefusesWhatItCannotWriteOrHear) {

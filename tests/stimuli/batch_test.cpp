@@ -267,6 +267,32 @@ TEST_F(Batch, BeginsBeforeALeadingSound) {
     }
 }
 
+// No folder of a large set has more than a thousand files; a set that fits into one is flat.
+TEST_F(Batch, HasItsClipsInFoldersWhenItIsLarge) {
+    std::vector<double> intensities;
+    for (std::size_t i = 0; i < kClipsPerFolder; ++i)
+        intensities.push_back(static_cast<double>(i + 1) / 1000);
+    const BatchPlan flat = plan_batch(design("flat.json", intensities));
+    ASSERT_EQ(flat.clips.size(), kClipsPerFolder);
+    for (const ClipPlan& clip : flat.clips) EXPECT_EQ(clip.folder, "");
+    intensities.push_back(1);
+    const BatchPlan large = plan_batch(design("large.json", intensities));
+    ASSERT_EQ(large.clips.size(), kClipsPerFolder + 1);
+    EXPECT_EQ(large.clips[kClipsPerFolder - 1].folder, "b000/");
+    EXPECT_EQ(large.clips[kClipsPerFolder].folder, "b001/");
+    std::map<fs::path, std::size_t> entries;
+    for (const ClipPlan& clip : large.clips) {
+        const ClipFiles files = clip_files(clip);
+        ++entries[files.sidecar.parent_path()];
+        for (const fs::path& file : files.listed()) ++entries[file.parent_path()];
+    }
+    EXPECT_EQ(entries.size(), 6u) << "stimuli, overview and code/scripts, two folders each";
+    for (const auto& [below, count] : entries) EXPECT_LE(count, 1000u) << below;
+    EXPECT_EQ(file_in_stimuli(large.clips.back()), "b001/stim-smile1_video.mkv");
+    // The folder is no reason to make a clip anew.
+    EXPECT_EQ(large.clips.front().content_sha256, flat.clips.front().content_sha256);
+}
+
 TEST_F(Batch, NotesWhatMayNotBeMeant) {
     const fs::path file = design("notes.json", {0.5, 1});
     EXPECT_TRUE(plan_batch(file).notes.empty());

@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "message_of.h"
 #include "paths.h"
@@ -67,6 +68,73 @@ TEST(MotionMatch, RefusesSharesThatTheTempoCannotReach) {
     EXPECT_NE(message_of([&] {
                   plan_batch(folder / "design.json");
               }).find("expected a script whose expression or units follow the parameter"),
+              std::string::npos);
+}
+
+// With the same onset, fear is at its apex later than happiness.
+TEST(MotionMatch, PutsTheApexIntoTheFrameThatIsAskedFor) {
+    const TemporaryFolder folder;
+    Json design = steps_design(0.1);
+    design["match"]["motion"] = {{"apex_s", 0.4}};
+    design["sets"][0]["clip"] = "${expression}_${strength}";
+    design["sets"][0]["factors"]["strength"] = {0.7};
+    design["sets"][0]["script"]["events"][0]["intensity"] = "${strength}";
+    design["sets"][0]["script"]["events"][0]["onset_s"] = "${onset_s}";
+    std::ofstream(folder / "design.json") << design.dump();
+    EXPECT_TRUE(make_batch({.design = folder / "design.json", .out = folder / "set", .workers = 2})
+                    .complete);
+    const animate::FrameRows rows =
+        animate::frame_rows(read_file(folder / "set/stimuli/stimuli.tsv", {"a table", kMegabyte}));
+    ASSERT_EQ(rows.rows(), 2);
+    std::set<double> onsets;
+    for (int r = 0; r < rows.rows(); ++r) {
+        EXPECT_NEAR(rows.number(r, rows.column("seen_apex_s")), 0.4, 1e-9)
+            << rows.cells[static_cast<std::size_t>(r)][0];
+        onsets.insert(rows.number(r, rows.column("onset_s")));
+    }
+    EXPECT_GT(onsets.size(), 1u) << "every movement has an onset of its own";
+
+    // Together with equal steps
+    design["match"]["motion"] = {{"apex_s", 0.4}, {"share", {0.5}}, {"of", "intensity"}};
+    design["sets"][0]["clip"] = "${expression}_${seen_step}";
+    design["sets"][0]["factors"] = {{"expression", {"fear"}}};
+    design["sets"][0]["script"]["events"][0]["intensity"] = "${intensity}";
+    std::ofstream(folder / "design.json") << design.dump();
+    EXPECT_TRUE(make_batch({.design = folder / "design.json", .out = folder / "both", .workers = 2})
+                    .complete);
+    const animate::FrameRows both =
+        animate::frame_rows(read_file(folder / "both/stimuli/stimuli.tsv", {"a table", kMegabyte}));
+    ASSERT_EQ(both.rows(), 1);
+    EXPECT_NEAR(both.number(0, both.column("seen_apex_s")), 0.4, 1e-9);
+    EXPECT_NEAR(both.number(0, both.column("seen_share")), 0.5, 0.02);
+}
+
+TEST(MotionMatch, RefusesAnApexThatTheMovementCannotHave) {
+    const TemporaryFolder folder;
+    Json design = steps_design(0);
+    design["sets"][0]["clip"] = "${expression}";
+    // A rig by a relative path, as a design beside its heads has it
+    design["sets"][0]["script"]["rig"] =
+        std::filesystem::relative(RISORIUS_SOURCE_DIR "/rigs/adult/rig.json",
+                                  std::filesystem::canonical(folder.path()))
+            .string();
+    design["sets"][0]["script"]["events"][0]["intensity"] = 1;
+    design["sets"][0]["script"]["events"][0]["onset_s"] = "${onset_s}";
+    const auto refusal = [&](const Json& motion) {
+        design["match"]["motion"] = motion;
+        std::ofstream(folder / "design.json") << design.dump();
+        return message_of([&] { plan_batch(folder / "design.json"); });
+    };
+    EXPECT_NE(refusal({{"apex_s", 0.06}}).find("expected an apex_s of match/motion of 0."),
+              std::string::npos);
+    EXPECT_NE(refusal({{"apex_s", 0.4}, {"of", "intensity"}})
+                  .find("/match/motion/of: expected \"share\" beside it, found none"),
+              std::string::npos);
+    EXPECT_NE(refusal({{"share", {0.5}}, {"of", "onset_s"}, {"apex_of", "onset_s"}})
+                  .find("/match/motion/apex_of: expected \"apex_s\" beside it, found none"),
+              std::string::npos);
+    design["sets"][0]["script"]["events"][0]["onset_s"] = 0.2;
+    EXPECT_NE(refusal({{"apex_s", 0.7}}).find("as late as apex_s of match/motion"),
               std::string::npos);
 }
 

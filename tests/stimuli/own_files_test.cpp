@@ -45,6 +45,29 @@ TEST(OwnFiles, AreThoseOfClipsAndOfTheSet) {
     check_own_folder(folder.path());
 }
 
+// A clip of a large set has its files in a folder of its own; those of another folder are not its.
+TEST(OwnFiles, AreThoseInFoldersOfClipsToo) {
+    const TemporaryFolder folder;
+    write_set(folder);
+    nlohmann::ordered_json record{{"format", "risorius-clip"}, {"stim_id", "e"}};
+    for (const char* file : {"code/scripts/b012/e.json", "overview/b012/e.png",
+                             "stimuli/b012/stim-e_video.mp4", "overview/b013/e.png"}) {
+        write_file(folder / file, file);
+        record["files"][file] = sha256_of_file(folder / file);
+    }
+    write_file(folder / "stimuli/b012/stim-e_video.json", record.dump());
+    write_file(folder / "stimuli/mine/stim-e_video.json", record.dump());
+    for (const char* page : {"overview/b012/index.html", "overview/mine/index.html"}) {
+        write_file(folder / page, "page");
+        add_sum(folder, page);
+    }
+    Files expected = kSet;
+    expected.merge(Files{"code/scripts/b012/e.json", "overview/b012/e.png",
+                         "stimuli/b012/stim-e_video.mp4", "stimuli/b012/stim-e_video.json",
+                         "overview/b012/index.html"});
+    EXPECT_EQ(own_files(folder.path()), expected);
+}
+
 TEST(OwnFiles, AreNotThoseThatTheUserListsOrNamesAlike) {
     const TemporaryFolder folder;
     write_set(folder);

@@ -12,6 +12,8 @@
 
 #include "message_of.h"
 #include "risorius/core/counter_rng.h"
+#include "risorius/media/image_file.h"
+#include "risorius/media/video_reader.h"
 #include "risorius/track/script.h"
 #include "temporary_folder.h"
 
@@ -196,12 +198,18 @@ class ReverseFiles : public testing::Test {
                 table << "\t2.5\n";
             }
         std::ofstream answers(file("7.csv"));
-        answers << "participant,stim_id,answer,reaction (s)\n";
+        answers << "participant,stim_id,answer,reaction (s),intensity\n";
         std::ofstream others(file("8.tsv"));
         others << "participant\ttrial\tresponse\n";
         for (const design::Trial& trial : trials) {
             const bool smile = evidence({{"AU12", 1}}, trial) > 0;
-            answers << "7,t" << trial.number << "," << (smile ? "happy" : "not so") << ",0.5\n";
+            // A smile looks the stronger the larger and the earlier it is.
+            double intensity = 5;
+            for (const design::UnitCourse& course : trial.units)
+                if (course.unit == "AU12")
+                    intensity = 5 * course.amplitude - 2 * course.onset_latency_s;
+            answers << "7,t" << trial.number << "," << (smile ? "happy" : "not so") << ",0.5,"
+                    << (smile ? format_number(intensity) : "") << "\n";
             others << "8\t" << trial.number << "\t"
                    << (trial.number % 10 == 0 ? "n/a"
                        : smile                ? "happy"
@@ -244,6 +252,11 @@ TEST_F(ReverseFiles, BecomeAnExpressionThatCanBePlayed) {
             EXPECT_EQ(unit.at("role"), "facilitates");
             EXPECT_NEAR(unit.at("r").at("value").get<double>(), 1, 1e-9);
             EXPECT_EQ(unit.at("found_in"), 2);
+            const Json& course = unit.at("course");
+            EXPECT_GT(course.at("amplitude").at("r_intensity").get<double>(), 0.8);
+            EXPECT_LT(course.at("amplitude").at("p_intensity").get<double>(), 0.05);
+            EXPECT_LT(course.at("onset_latency_s").at("r_intensity").get<double>(), 0);
+            EXPECT_GT(course.at("deceleration").at("p_intensity").get<double>(), 0.05);
         }
     EXPECT_TRUE(found_it);
     for (const char* name : {"model_happy.json", "model_happy_low.json", "model_happy_high.json"}) {
@@ -257,11 +270,23 @@ TEST_F(ReverseFiles, BecomeAnExpressionThatCanBePlayed) {
         << "nothing facilitates the other answer in two thirds of the units";
     EXPECT_EQ(text_of(file("model/model.tsv")).rfind("answer\tunit\trole\tshown\tanswered\tr\t", 0),
               0u);
-    EXPECT_NE(text_of(file("model/index.html")).find("AU12"), std::string::npos);
+    const std::string page = text_of(file("model/index.html"));
+    EXPECT_NE(page.find("AU12"), std::string::npos);
+    // Its pictures: a smile begins at rest, and the ends of its interval differ.
+    EXPECT_NE(page.find("<video src=\"model_happy.mp4\""), std::string::npos);
+    media::VideoReader video(file("model/model_happy.mp4"));
+    EXPECT_EQ(video.width_px(), 384);
+    EXPECT_GT(video.frames(), 20);
+    EXPECT_NE(video.frame(0).rgba, video.frame(video.frames() / 2).rgba);
+    const Image strip = media::read_png(file("model/model_happy.png"));
+    EXPECT_GT(strip.width_px, 6 * 192);
+    EXPECT_GT(strip.height_px, 3 * 192);
+    EXPECT_FALSE(fs::exists(file("model/model_notSo.mp4")));
 }
 
 TEST_F(ReverseFiles, AreRefusedWithTheirPlace) {
     ReverseOptions bad = options();
+    bad.pictures = false;
     bad.answers = {"hapy"};
     EXPECT_NE(message_of([&] { reverse_correlation(bad); }).find("\"happy\""), std::string::npos);
     EXPECT_FALSE(fs::exists(file("model")));

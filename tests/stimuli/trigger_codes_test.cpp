@@ -62,13 +62,13 @@ TEST(TriggerCodes, HaveTheOnsetOfSoundInTheNearestFrame) {
 
 TEST(TriggerCodes, TellTheClipOrWhatIsNamed) {
     design::Design design;
-    design.code_by = {"stim_id"};
+    design.triggers.code_by = {"stim_id"};
     const CodesOfClips each = codes_of_clips(clips_of(2), design);
     EXPECT_EQ(each.table, "code\tstim_id\n10\thappiness0\n11\tfear0\n12\thappiness1\n13\tfear1\n");
     EXPECT_NE(triggers({record("fear1", 2)}, each).find("fear1\tclip_on\t13\t0"),
               std::string::npos);
 
-    design.code_by = {"expression", "control"};
+    design.triggers.code_by = {"expression", "control"};
     std::vector<ClipPlan> clips = clips_of(200);
     ClipPlan reversed = clips.front();
     reversed.condition.clip += "Reversed";
@@ -85,12 +85,12 @@ TEST(TriggerCodes, TellTheClipOrWhatIsNamed) {
 TEST(TriggerCodes, AreRefusedWhenThereAreTooFew) {
     design::Design design;
     design.file = "design.json";
-    design.code_by = {"stim_id"};
+    design.triggers.code_by = {"stim_id"};
     EXPECT_EQ(message_of([&] { codes_of_clips(clips_of(120), design); }), "no error");
     EXPECT_EQ(message_of([&] { codes_of_clips(clips_of(121), design); }),
               "design.json:/triggers: expected 241 codes at most; \"code_by\" names the parameters "
               "that they tell, found more");
-    design.code_by = {"age"};
+    design.triggers.code_by = {"age"};
     EXPECT_EQ(message_of([&] { codes_of_clips(clips_of(1), design); }),
               "design.json:/triggers/code_by: expected names of parameters, or \"control\", found "
               "\"age\"");

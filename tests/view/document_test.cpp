@@ -117,9 +117,17 @@ TEST(Document, RefusesPointersThatLeadNowhere) {
              {"", "edit: expected a JSON pointer to a part of the script, found \"\""},
              {"/events/7", "edit /events/7: expected an index in [0, 2], found \"7\""},
              {"/events/-", "edit /events/-: expected an index in [0, 2], found \"-\""},
+             // The library throws here what is no Error.
+             {"/events//x", "edit /events//x: expected a place in the script, found none"},
+             {"/events/99999999999999999999/x",
+              "edit /events/99999999999999999999/x: expected a place in the script, found none"},
              {"/rig/x",
               "edit /rig/x: expected a place in an object or a list, found a plain value"}})
-        EXPECT_EQ(message_of([&] { document.edit({set(pointer, "1")}); }), message);
+        EXPECT_EQ(message_of([&] {
+                      document.edit({set("/seed", "3"), set(pointer, "1")});
+                  }),
+                  message);
+    EXPECT_EQ(document.text(), Document(script()).text());
 }
 
 TEST(Document, IsWrittenAsPeopleWriteScripts) {

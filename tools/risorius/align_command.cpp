@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_object.h"
@@ -56,8 +57,15 @@ void run_align(AlignArguments& arguments) {
     talk::SpokenResult result;
     result.spoken.utterance = alignment.utterance;
     result.sound_file = arguments.recording;
-    write_speech_text(result, arguments.out, table);
-    if (!arguments.report.empty()) write_text(arguments.report, talk::alignment_report(alignment));
+    SpeechOutputs outputs(arguments.out);
+    write_speech_text(result, arguments.out, table, outputs);
+    std::optional<SpeechOutputs> report;  // it may be in another folder
+    if (!arguments.report.empty()) {
+        report.emplace(arguments.report);
+        report->write_text(arguments.report, talk::alignment_report(alignment));
+    }
+    outputs.commit();
+    if (report) report->commit();
     const Json summary = summary_json(aligned);
     if (arguments.common.json) {
         std::printf("%s\n", json_text(summary, 1).c_str());

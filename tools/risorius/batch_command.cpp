@@ -53,7 +53,11 @@ void print_plan(const BatchArguments& arguments) {
     const stimuli::BatchPlan plan = stimuli::plan_batch(arguments.options.design);
     long frames = 0;
     for (const stimuli::ClipPlan& clip : plan.clips) frames += clip.frames;
-    if (arguments.list) {
+    if (arguments.list && arguments.common.json) {
+        Json names = Json::array();
+        for (const stimuli::ClipPlan& clip : plan.clips) names.push_back(clip.condition.clip);
+        std::printf("%s\n", json_text(names, 1).c_str());
+    } else if (arguments.list) {
         for (const stimuli::ClipPlan& clip : plan.clips)
             std::printf("%s\n", clip.condition.clip.c_str());
     } else if (arguments.common.json) {

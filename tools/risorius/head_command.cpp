@@ -103,6 +103,7 @@ void add_people(CLI::App& command, HeadArguments& arguments) {
         "--cast", arguments.cast.count,
         "Choose this many persons that differ, 2 to 200, with --seed. Writes their "
         "identities, p01.json and so on, and the table cast.tsv, but no heads");
+    cast->check(CLI::Range(2, 200));
     for (const char* source : {"--identity", "--morph", "--average", "--exaggerate"})
         cast->excludes(command.get_option(source));
     command

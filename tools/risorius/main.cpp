@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
 #include <string_view>
@@ -17,6 +19,8 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/input_log.h"
+#include "risorius/core/json_object.h"
+#include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/core/progress_monitor.h"
 #include "risorius/core/readable_text.h"
@@ -34,6 +38,21 @@ int say(ExitCode code, const std::string& message) {
     return code;
 }
 
+/// Says why the run ended: in words and, with --json, in one line of JSON where the report would be.
+/// A message may quote what the input holds, of any length, so it is cut. A path has up to 4096 bytes.
+int say_why(ExitCode code, const std::string& words, int argc, char** argv) {
+    const std::string message = risorius::shortened_text(words, 8000);
+    if (std::find(argv + 1, argv + std::max(argc, 1), std::string_view("--json")) !=
+        argv + std::max(argc, 1))
+        std::printf("%s\n", risorius::json_text(
+                                risorius::json_object({{"format", "risorius-error"},
+                                                       {"version", 1},
+                                                       {"exit_code", static_cast<int>(code)},
+                                                       {"error", message}}))
+                                .c_str());
+    return say(code, message);
+}
+
 using risorius::in_quotes;
 
 /// The flag that sets a field of an options struct: the name of the field without its unit.
@@ -43,6 +62,11 @@ std::string flag_of(const std::string& field) {
         if (flag.ends_with(unit)) flag.erase(flag.size() - std::string(unit).size());
     std::replace(flag.begin(), flag.end(), '_', '-');
     return "--" + flag;
+}
+
+/// "0.3" of "0.300000", as CLI11 prints the ends of ranges.
+std::string without_zeros(const std::string& number) {
+    return std::regex_replace(number, std::regex("(\\.[0-9]*[1-9])0+$|\\.0+$"), "$1");
 }
 
 // Converts errors of the command line to the form of all messages: place, expected, found.
@@ -94,8 +118,10 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app, int ar
     // excludes --shapes"
     std::smatch part;
     if (std::regex_match(text, part, std::regex("(.*): Value (.*) not in range (.*) to (.*)")))
-        return place + " " + part.str(1) + ": expected a number in [" + part.str(3) + ", " +
-               part.str(4) + "], found " + part.str(2);
+        return place + " " + part.str(1) + ": expected a number in [" + without_zeros(part.str(3)) +
+               ", " + without_zeros(part.str(4)) + "], found " + part.str(2);
+    if (std::regex_match(text, part, std::regex("(--[^:]*): (expected .*)")))
+        return place + " " + part.str(1) + ": " + part.str(2);
     if (std::regex_match(text, part, std::regex("(.*): (.*) not in \\{(.*)\\}")))
         return place + " " + part.str(1) + ": expected one of " +
                std::regex_replace(part.str(3), std::regex(","), ", ") + ", found " +
@@ -107,10 +133,24 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app, int ar
     return place + ": expected what risorius " + place + " --help says, found " + text;
 }
 
+/// Why a text is no number that an option may have; empty when it is one. CLI11 takes an empty text for 0, and its ranges hold
+/// NaN.
+std::string why_no_number(const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (text.empty()) return "expected a number, found none";
+    if (end != text.c_str() && !std::isfinite(value))
+        return "expected a finite number, found " + text;
+    return "";
+}
+
 /// Names the value of every option that takes text after the option: -o,--out OUT instead of TEXT. Allowed values stand in the
 /// descriptions, not behind the type.
 void name_values(CLI::App& command) {
     for (CLI::Option* option : command.get_options()) {
+        const std::string type = option->get_type_name();
+        if (type.starts_with("FLOAT") || type.starts_with("INT") || type.starts_with("UINT"))
+            option->check(CLI::Validator(why_no_number, ""));
         try {
             for (int i = 0;; ++i) option->get_validator(i)->description("");
         } catch (const CLI::OptionNotFound&) {  // there is no way to ask for their number
@@ -157,6 +197,9 @@ int run(int argc, char** argv) {
     manual->callback([&] { cli::write_manual_pages(app, manual_folder); });
     name_values(app);
     const InputLog inputs;  // no output takes the place of one
+    const auto say = [&](ExitCode code, const std::string& message) {
+        return say_why(code, message, argc, argv);
+    };
     try {
         app.parse(argc, argv);  // also runs the command
     } catch (const CLI::ParseError& error) {

@@ -17,6 +17,7 @@ struct ReverseArguments {
     Common common;
     stimuli::ReverseOptions options;
     std::string by;
+    bool no_pictures = false;
 };
 
 void print(const Json& models, const std::filesystem::path& out) {
@@ -36,6 +37,7 @@ void print(const Json& models, const std::filesystem::path& out) {
 void run_reverse(ReverseArguments& arguments) {
     stimuli::ReverseOptions& options = arguments.options;
     options.by_participant = !arguments.by.empty();
+    options.pictures = !arguments.no_pictures;
     if (options.rig.empty()) options.rig = data_folder() / "rigs/adult/rig.json";
     Json models;
     {
@@ -62,14 +64,16 @@ void add_reverse(CLI::App& app) {
     command
         ->add_option("RESPONSES", options.responses,
                      "Tables of answers, .tsv or .csv, with the columns stimulus_id (or trial), "
-                     "response and participant. The data of the experiment programs of a set are "
-                     "such tables")
+                     "response and participant, and intensity if it was rated. The data of the "
+                     "experiment programs of a set are such tables")
         ->required();
     command
         ->add_option("-o,--out", options.out,
-                     "The folder to write: model.tsv, model.json, index.html, and "
-                     "model_ANSWER.json, the resulting expression as a script for risorius render")
+                     "The folder to write: model.tsv, model.json, index.html, and the resulting "
+                     "expression of each answer: model_ANSWER.json, a script for risorius render, "
+                     "with a video and a strip of pictures")
         ->required();
+    command->add_flag("--no-pictures", arguments->no_pictures, "Do not render the expressions");
     command->add_option("--answer", options.answers,
                         "Make the model of this answer only; it may be given several times");
     command

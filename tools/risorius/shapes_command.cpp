@@ -95,16 +95,21 @@ void add_correctives(CLI::App& command, blendshapes::ShapesOptions& options) {
             "Maximum number of pairs of shapes to simulate together. Chosen first: pairs that move "
             "the same skin most, or that occur together in the script. Default: 48; for facs 160")
         ->check(CLI::Range(0, 10000));
-    command.add_option_function<double>(
-        "--corrective-tolerance-mm",
-        [&options](double mm) { options.corrective_tolerance_m = 1e-3 * mm; },
-        "Sums of shapes whose maximum error is below this number of mm get no corrective. Default: "
-        "0.3");
-    command.add_option_function<double>(
-        "--corrective-megabytes",
-        [&options](double mb) { options.corrective_bytes = static_cast<long>(1e6 * mb); },
-        "Maximum size of the correctives in shapes.glb: with less space they keep less detail. "
-        "Default: 0.7; for facs 4");
+    command
+        .add_option_function<double>(
+            "--corrective-tolerance-mm",
+            [&options](double mm) { options.corrective_tolerance_m = 1e-3 * mm; },
+            "Sums of shapes whose maximum error is below this number of mm get no corrective. "
+            "Default: "
+            "0.3")
+        ->check(CLI::Range(0.0, 100.0));
+    command
+        .add_option_function<double>(
+            "--corrective-megabytes",
+            [&options](double mb) { options.corrective_bytes = static_cast<long>(1e6 * mb); },
+            "Maximum size of the correctives in shapes.glb: with less space they keep less detail. "
+            "Default: 0.7; for facs 4")
+        ->check(CLI::Range(0.0, 2000.0));
 }
 
 }  // namespace

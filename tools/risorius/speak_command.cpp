@@ -4,15 +4,18 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <tuple>
 
 #include "risorius/animate/animate.h"
 #include "risorius/blendshapes/live_link.h"
 #include "risorius/core/data_folder.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/core/text_lines.h"
 #include "risorius/media/mono_sound.h"
+#include "risorius/media/video_writer.h"
 #include "risorius/speech/phone_table.h"
 #include "risorius/talk/rig_voice_file.h"
 #include "risorius/talk/script_checker.h"
@@ -65,16 +68,23 @@ bool is_better(const talk::CheckedSpeech& one, const talk::CheckedSpeech& other)
            std::tuple(other.held, other.opened, -other.missing_mm);
 }
 
-/// Writes the utterance, the script and what the script shows.
-void render_speech(SpeakArguments& arguments, talk::SpokenResult& result,
-                   const speech::PhoneTable& table) {
+/// Writes the utterance, the script and what the script shows. The first two appear with the last one, or not at all. Returns
+/// what came of the closures of the lips.
+talk::CheckedSpeech render_speech(SpeakArguments& arguments, talk::SpokenResult& result,
+                                  const speech::PhoneTable& table) {
     const fs::path out = arguments.render.out;
     const bool only_script = out.extension() == ".json", live_link = out.extension() == ".csv";
     const fs::path script_file = only_script ? out : beside(out, ".script.json");
+    if (!only_script && !live_link) {
+        finish_view(arguments.render, arguments.size);
+        media::check_target(out, {.width_px = 64, .height_px = 64});  // its ending
+    }
+    SpeechOutputs outputs(out);
     talk::SpeakScriptOptions options;
     // An utterance that was given stays where it is.
-    const fs::path utterance_file = arguments.input.utterance.empty() ? write_utterance(result, out)
-                                                                      : arguments.input.utterance;
+    const fs::path utterance_file = arguments.input.utterance.empty()
+                                        ? write_utterance(result, out, outputs)
+                                        : arguments.input.utterance;
     options.utterance = seen_from(out, utterance_file);
     options.style = arguments.style;
     options.gestures = arguments.gestures;
@@ -88,7 +98,7 @@ void render_speech(SpeakArguments& arguments, talk::SpokenResult& result,
     else
         options.rig = seen_from(out, data_folder() / "rigs/adult/rig.json");
     Json script = talk::speak_script(result.spoken.utterance, options);
-    const auto save = [&] { write_text(script_file, json_text(script, 1) + "\n"); };
+    const auto save = [&] { outputs.write_text(script_file, json_text(script, 1) + "\n"); };
     save();
     ProgressBar bar(arguments.common);
     const scene::RigFiles files =
@@ -121,23 +131,50 @@ void render_speech(SpeakArguments& arguments, talk::SpokenResult& result,
         script = talk::speak_script(result.spoken.utterance, options);
     }
     const talk::CheckedSpeech& checked = best;
-    write_text(beside(out, ".speech.tsv"),
-               talk::speech_table(checked.track, checked.utterances, table));
-    if (!arguments.common.quiet && checked.total > 0)
-        std::printf("closures of the lips: %d, reached %d, held %d\n", checked.total,
-                    checked.reached, checked.held);
-    if (!arguments.common.quiet && checked.missing_mm >= 0.5)
-        std::printf("vowels open %.1f mm less than planned, mean\n", checked.missing_mm);
-    if (only_script) return;
+    outputs.write_text(beside(out, ".speech.tsv"),
+                       talk::speech_table(checked.track, checked.utterances, table));
     if (live_link)
-        return write_text(out, blendshapes::live_link_of_script(
-                                   script_file, files, animate::quality_of(arguments.render)));
+        outputs.write_text(out, blendshapes::live_link_of_script(
+                                    script_file, files, animate::quality_of(arguments.render)));
+    if (only_script || live_link) {
+        outputs.commit();
+        return best;
+    }
     arguments.render.script = script_file;
     arguments.render.rig.reset();
-    finish_view(arguments.render, arguments.size);
     const animate::RunRecord record = animate::animate(arguments.render, bar.monitor());
     for (const std::string& warning : record.warnings)
         std::fprintf(stderr, "note: %s\n", warning.c_str());
+    outputs.commit();
+    return best;
+}
+
+void print_report(const SpeakArguments& arguments, const speech::Utterance& utterance,
+                  const std::optional<talk::CheckedSpeech>& checked) {
+    const std::string out = arguments.render.out.string();
+    const double seconds = utterance.seconds(utterance.samples);
+    if (arguments.common.json) {
+        Json report = json_object({{"out", out},
+                                   {"phones", utterance.phones.size()},
+                                   {"words", utterance.words.size()},
+                                   {"seconds", seconds}});
+        if (checked) {
+            report["closures"] = checked->total;
+            report["closures_reached"] = checked->reached;
+            report["closures_held"] = checked->held;
+            report["missing_mm"] = checked->missing_mm;
+        }
+        std::printf("%s\n", json_text(report, 1).c_str());
+        return;
+    }
+    if (arguments.common.quiet) return;
+    if (checked && checked->total > 0)
+        std::printf("closures of the lips: %d, reached %d, held %d\n", checked->total,
+                    checked->reached, checked->held);
+    if (checked && checked->missing_mm >= 0.5)
+        std::printf("vowels open %.1f mm less than planned, mean\n", checked->missing_mm);
+    std::printf("%s: %zu phones, %zu words, %.3f s\n", out.c_str(), utterance.phones.size(),
+                utterance.words.size(), seconds);
 }
 
 void run_speak(SpeakArguments& arguments) {
@@ -145,15 +182,15 @@ void run_speak(SpeakArguments& arguments) {
     const fs::path out = arguments.render.out;
     const speech::PhoneTable table = speech::PhoneTable::standard();
     talk::SpokenResult result = talk::read_spoken(arguments.input, table);
-    if (is_speech_text(out))
-        write_speech_text(result, out, table);
-    else
-        render_speech(arguments, result, table);
-    if (arguments.common.quiet) return;
-    const speech::Utterance& utterance = result.spoken.utterance;
-    std::printf("%s: %zu phones, %zu words, %.3f s\n", out.string().c_str(),
-                utterance.phones.size(), utterance.words.size(),
-                utterance.seconds(utterance.samples));
+    std::optional<talk::CheckedSpeech> checked;
+    if (is_speech_text(out)) {
+        SpeechOutputs outputs(out);
+        write_speech_text(result, out, table, outputs);
+        outputs.commit();
+    } else {
+        checked = render_speech(arguments, result, table);
+    }
+    print_report(arguments, result.spoken.utterance, checked);
 }
 
 }  // namespace

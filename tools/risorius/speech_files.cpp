@@ -3,7 +3,6 @@
 
 #include <array>
 
-#include "risorius/core/output_set.h"
 #include "risorius/core/read_file.h"
 #include "risorius/core/text_lines.h"
 #include "risorius/media/mono_sound.h"
@@ -55,25 +54,30 @@ fs::path seen_from(const fs::path& from, const fs::path& a) {
     return fs::absolute(a).lexically_relative(fs::current_path() / folder_of_output(from));
 }
 
-void write_text(const fs::path& file, const std::string& text) {
-    OutputSet outputs(folder_of_output(file), OutputSet::Then::kRunGoesOn);
-    write_file(outputs.file(file), text);
-    outputs.commit();
+fs::path SpeechOutputs::add(const fs::path& file) {
+    const auto [added, is_new] = added_.try_emplace(file);
+    if (is_new) {
+        added->second = set_.file(file);
+        stand_ins_.try_emplace(file, file, added->second);
+    }
+    return added->second;
 }
 
-fs::path write_utterance(talk::SpokenResult& result, const fs::path& out) {
-    OutputSet outputs(folder_of_output(out), OutputSet::Then::kRunGoesOn);
+void SpeechOutputs::write_text(const fs::path& file, const std::string& text) {
+    write_file(add(file), text);
+}
+
+fs::path write_utterance(talk::SpokenResult& result, const fs::path& out, SpeechOutputs& outputs) {
     if (!result.spoken.sound.empty() && result.sound_file.empty()) {
         const fs::path wav = beside(out, ".wav");
         media::write_mono_wav({result.spoken.utterance.rate_hz, result.spoken.sound},
-                              outputs.file(wav));
+                              outputs.add(wav));
         result.sound_file = wav;
     }
     if (!result.sound_file.empty())
         result.spoken.utterance.sound = seen_from(out, result.sound_file);
     const fs::path file = beside(out, std::string(kUtterance));
-    write_file(outputs.file(file), speech::utterance_text(result.spoken.utterance));
-    outputs.commit();
+    outputs.write_text(file, speech::utterance_text(result.spoken.utterance));
     return file;
 }
 
@@ -84,15 +88,16 @@ bool is_speech_text(const fs::path& out) {
 }
 
 void write_speech_text(talk::SpokenResult& result, const fs::path& out,
-                       const speech::PhoneTable& table) {
+                       const speech::PhoneTable& table, SpeechOutputs& outputs) {
     const std::string name = out.string();
     if (name.ends_with(kUtterance)) {
-        write_utterance(result, fs::path(name.substr(0, name.size() - kUtterance.size()) + ".x"));
+        write_utterance(result, fs::path(name.substr(0, name.size() - kUtterance.size()) + ".x"),
+                        outputs);
         return;
     }
     for (const std::string_view ending : kEndings)
         if (name.ends_with(ending))
-            return write_text(out, text_of(ending, result.spoken.utterance, table));
+            return outputs.write_text(out, text_of(ending, result.spoken.utterance, table));
 }
 
 }  // namespace risorius::cli

@@ -10,6 +10,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/input_log.h"
+#include "risorius/core/stand_in.h"
 
 namespace risorius {
 
@@ -24,11 +25,12 @@ std::string reason() {
 
 FileReader::FileReader(const std::filesystem::path& file, const FileKind& kind)
     : file_(file), kind_(kind) {
+    const std::filesystem::path place = file_to_read(file);
     // The kind is asked for before the file is opened: opening a device can have an effect.
     struct ::stat status {};
-    if (::stat(file.c_str(), &status) != 0) fail(reason());
+    if (::stat(place.c_str(), &status) != 0) fail(reason());
     check_type(status.st_mode);
-    do descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
+    do descriptor_ = ::open(place.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
     while (descriptor_ < 0 && errno == EINTR);
     if (descriptor_ < 0) fail(reason());
     try {

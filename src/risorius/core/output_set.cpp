@@ -214,7 +214,10 @@ OutputSet::OutputSet(const fs::path& folder, Then then) {
     const UninterruptedStep step;  // until it is known to abandon_outputs()
     impl_ = std::make_unique<Impl>(folder, then);
 }
-OutputSet::~OutputSet() = default;
+OutputSet::~OutputSet() {
+    const detail::Removal removal;
+    impl_.reset();
+}
 
 fs::path OutputSet::file(const fs::path& target) { return impl_->add(target, Kind::kFile); }
 fs::path OutputSet::folder(const fs::path& target) { return impl_->add(target, Kind::kFolder); }

@@ -110,30 +110,57 @@ void add_sound(const ConditionSet& set, const Parameters& values, Condition& con
     condition.audio_start_s = start.get<double>();
 }
 
-/// The value of the parameter of match/motion in a condition; 1 when nothing can find it.
-Given matched_intensity(const Design& design, const ConditionSet& set,
-                        const std::vector<Given>& given, const FindIntensity& find) {
-    const std::string& name = design.match.motion->of;
-    const auto with = [&](double intensity) {
-        std::vector<Given> all = given;
-        all.push_back({name, JsonCursor::from_json(json_number(intensity), set.place)});
-        return all;
+/// The values of the parameters of match/motion in a condition; 1 and the time of the apex when nothing can find them. What is seen at
+/// the apex and when it is there depend on one another a little, so that they are found twice.
+std::vector<Given> matched_motion(const Design& design, const ConditionSet& set,
+                                  const std::vector<Given>& given, const MotionSearch& search) {
+    const MotionMatch& motion = *design.match.motion;
+    const bool steps = !motion.share.empty();
+    double intensity = 1, time_s = motion.apex_s.value_or(0);
+    const auto found = [&] {
+        std::vector<Given> out;
+        const auto add = [&](const std::string& name, double value) {
+            out.push_back({name, JsonCursor::from_json(json_number(value), set.place)});
+        };
+        if (steps) add(motion.of, intensity);
+        if (motion.apex_s) add(motion.apex_of, time_s);
+        return out;
     };
-    if (!find) return with(1).back();
-    const auto script_at = [&](double intensity) {
-        return Parameters(with(intensity)).filled(set.script);
+    if (!search.intensity) return found();
+    const auto all = [&] {
+        std::vector<Given> out = given;
+        for (Given& one : found()) out.push_back(std::move(one));
+        return Parameters(out);
     };
-    const double share = Parameters(with(1)).at(kSeenStep).get<double>();
-    return with(find(share, script_at, set.script.folder(), set.place)).back();
+    const auto script_with = [&](double& changed) {
+        return [&](double value) {
+            const double before = changed;
+            changed = value;
+            const Json script = all().filled(set.script);
+            changed = before;
+            return script;
+        };
+    };
+    for (int round = 0; round < (steps && motion.apex_s ? 2 : 1); ++round) {
+        if (steps)
+            intensity = search.intensity(all().at(kSeenStep).get<double>(), script_with(intensity),
+                                         set.script.folder(), set.place);
+        if (motion.apex_s)
+            time_s =
+                search.time_s(*motion.apex_s, script_with(time_s), set.script.folder(), set.place);
+    }
+    return found();
 }
 
 /// The values of a condition, from what is given before the overrides.
 Parameters values_of(const Design& design, const ConditionSet& set, std::vector<Given> given,
-                     const FindIntensity& find) {
+                     const MotionSearch& search) {
     const Parameters before(given);
     for (const Override& one : set.overrides)
         if (holds(one.when, before)) given.insert(given.end(), one.set.begin(), one.set.end());
-    if (design.match.motion) given.push_back(matched_intensity(design, set, given, find));
+    if (design.match.motion)
+        for (Given& one : matched_motion(design, set, given, search))
+            given.push_back(std::move(one));
     return Parameters(given);
 }
 
@@ -255,7 +282,7 @@ std::string clip_word(const std::string& text) {
     return out;
 }
 
-std::vector<Condition> conditions_of(const Design& design, const FindIntensity& find) {
+std::vector<Condition> conditions_of(const Design& design, const MotionSearch& search) {
     long all = 0;
     std::vector<std::vector<long>> wanted;
     for (const ConditionSet& set : design.sets) {
@@ -280,7 +307,7 @@ std::vector<Condition> conditions_of(const Design& design, const FindIntensity& 
             for (std::size_t f = 0; f < set.factors.size(); ++f)
                 given.push_back({set.factors[f].name,
                                  set.factors[f].levels[static_cast<std::size_t>(levels[f + 1])]});
-            const Parameters values = values_of(design, set, given, find);
+            const Parameters values = values_of(design, set, given, search);
 
             Condition condition;
             condition.clip = condition.of = clip_name(set, values);
@@ -308,7 +335,7 @@ std::vector<Condition> conditions_of(const Design& design, const FindIntensity& 
                 beside.script = controlled(script, control);
                 if (control.kind == ControlKind::kChimeric)
                     beside.lower_script =
-                        values_of(design, set, with_lower(given, control, values), find)
+                        values_of(design, set, with_lower(given, control, values), search)
                             .filled(set.script);
                 if (control.kind == ControlKind::kNeutral) {
                     if (neutrals.add(beside, out.size(), out)) out.push_back(std::move(beside));

@@ -40,15 +40,20 @@ struct Condition {
 /// The factor of match/motion.
 inline constexpr const char* kSeenStep = "seen_step";
 
-/// Returns the value of the parameter of match/motion for a share. `script_at`: the script of a condition with a value of it; `folder`:
-/// where its relative paths start; `place`: the condition in messages.
-using FindIntensity =
-    std::function<double(double share, const std::function<Json(double)>& script_at,
-                         const std::filesystem::path& folder, const std::string& place)>;
+/// What finds the values that match/motion asks for. `script_at`: the script of a condition with a value of the parameter; `folder`: where
+/// its relative paths start; `place`: the condition in messages.
+struct MotionSearch {
+    using Script = std::function<Json(double)>;
+    using Find =
+        std::function<double(double wanted, const Script& script_at,
+                             const std::filesystem::path& folder, const std::string& place)>;
+    Find intensity;  ///< for a share of the motion at full intensity
+    Find time_s;     ///< for the time of the apex, s
+};
 
-/// Returns all clips of a design. `find`: needed when the design matches motion. Throws Error for names that are invalid or not unique, for unknown parameters and for too many
-/// conditions.
-std::vector<Condition> conditions_of(const Design& design, const FindIntensity& find = {});
+/// Returns all clips of a design. `search`: needed when the design matches motion. Throws Error for names that are invalid or not unique,
+/// for unknown parameters and for too many conditions.
+std::vector<Condition> conditions_of(const Design& design, const MotionSearch& search = {});
 
 /// Converts text to a part of a clip's name: "0.25" -> "0p25", "zygomaticus_major.l" -> "ZygomaticusMajorL", -3 -> "m3".
 std::string clip_word(const std::string& text);

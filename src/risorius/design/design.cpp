@@ -214,16 +214,37 @@ LuminanceMatch read_luminance(const JsonCursor& json) {
     return out;
 }
 
+MotionMatch read_motion(const JsonCursor& json) {
+    json.allow_keys({"share", "of", "apex_s", "apex_of"});
+    MotionMatch out;
+    const auto parameter = [&](const char* key) {
+        const JsonCursor name = json.at(key);
+        if (!is_parameter_name(name.string())) name.fail("the name of a parameter");
+        return name.string();
+    };
+    const auto apex = json.find("apex_s");
+    if (!apex || json.find("share")) {
+        out.share = json.at("share").items();
+        for (const JsonCursor& share : out.share) share.number({0.01, 1});
+        if (out.share.empty()) json.at("share").fail("at least one share", "none");
+    }
+    if (!out.share.empty())
+        out.of = parameter("of");
+    else if (const auto v = json.find("of"))
+        v->fail("\"share\" beside it", "none");
+    if (apex) out.apex_s = apex->number({0.01, 60});
+    if (const auto v = json.find("apex_of")) {
+        if (!apex) v->fail("\"apex_s\" beside it", "none");
+        out.apex_of = parameter("apex_of");
+        if (out.apex_of == out.of) v->fail("another parameter than \"of\"");
+    }
+    return out;
+}
+
 Match read_match(const JsonCursor& json) {
     json.allow_keys({"luminance", "loudness", "motion"});
     Match match;
-    if (const auto motion = json.find("motion")) {
-        motion->allow_keys({"share", "of"});
-        match.motion = {.share = motion->at("share").items(), .of = motion->at("of").string()};
-        for (const JsonCursor& share : match.motion->share) share.number({0.01, 1});
-        if (match.motion->share.empty()) motion->at("share").fail("at least one share", "none");
-        if (!is_parameter_name(match.motion->of)) motion->at("of").fail("the name of a parameter");
-    }
+    if (const auto motion = json.find("motion")) match.motion = read_motion(*motion);
     if (const auto luminance = json.find("luminance")) {
         match.luminance = read_luminance(*luminance);
     }
@@ -235,20 +256,60 @@ Match read_match(const JsonCursor& json) {
     return match;
 }
 
+/// A key that every keyboard has, and whose name both programs use.
+bool is_key(const std::string& name) {
+    return name.size() == 1 && (std::islower(static_cast<unsigned char>(name[0])) ||
+                                std::isdigit(static_cast<unsigned char>(name[0])));
+}
+constexpr const char* kKeys = "a key from a to z or 0 to 9";
+
+/// How the trials of an experiment follow one another.
+void read_course(const JsonCursor& json, ExperimentOptions& out) {
+    if (const auto v = json.find("repetitions")) out.repetitions = v->integer(1, 1000);
+    if (const auto v = json.find("fixation_s")) out.fixation_s = v->number({0, 60});
+    if (const auto v = json.find("answer_during")) out.answer_during = v->boolean();
+    if (const auto v = json.find("blocks")) out.blocks = v->integer(1, 100);
+    if (const auto v = json.find("practice")) out.practice = v->integer(0, 1000);
+    if (const auto v = json.find("catch")) out.catch_share = v->number({0, 0.5});
+    const auto method = json.find("method");
+    const std::string name =
+        method ? method->one_of({"constant", "staircase", "quest"}) : std::string("constant");
+    if (name == "constant") {
+        for (const char* key : {"over", "series_by", "trials"})
+            if (const auto v = json.find(key))
+                v->fail("none without \"method\": \"staircase\" or \"quest\"");
+        return;
+    }
+    out.method =
+        name == "quest" ? ExperimentOptions::Method::kQuest : ExperimentOptions::Method::kStaircase;
+    if (!out.correct)
+        method->fail("\"correct\" beside it, the parameter of the right answer", "none");
+    for (const std::string& program : out.programs)
+        if (program == "jspsych")
+            method->fail("\"constant\" for jspsych, whose order is fixed before the first trial");
+    if (const auto v = json.find("repetitions"))
+        v->fail("none beside a method that chooses its clips; \"trials\" says how many");
+    out.series_by = {*out.correct};
+    if (const auto v = json.find("over")) out.over = v->string();
+    if (const auto v = json.find("series_by")) {
+        out.series_by.clear();
+        for (const JsonCursor& one : v->items()) out.series_by.push_back(one.string());
+    }
+    if (const auto v = json.find("trials")) out.trials = v->integer(1, 1000);
+}
+
 ExperimentOptions read_experiment(const JsonCursor& json) {
     json.allow_keys({"programs", "question", "answers", "correct", "sets", "controls",
-                     "repetitions", "fixation_s", "answer_during", "jspsych_from"});
+                     "repetitions", "fixation_s", "answer_during", "blocks", "practice", "catch",
+                     "method", "over", "series_by", "trials", "scales", "jspsych_from"});
     ExperimentOptions out;
     for (const JsonCursor& one : json.at("programs").items())
-        out.programs.push_back(one.one_of({"psychopy", "jspsych"}));
+        out.programs.push_back(one.one_of({"psychopy", "jspsych", "rating"}));
     if (out.programs.empty()) json.at("programs").fail("at least one program", "none");
     if (const auto v = json.find("question")) out.question = v->string();
     const JsonCursor answers = json.at("answers");
     for (const std::string& key : answers.keys()) {
-        // Names that both programs use, for keys that every keyboard has.
-        if (key.size() != 1 || !(std::islower(static_cast<unsigned char>(key[0])) ||
-                                 std::isdigit(static_cast<unsigned char>(key[0]))))
-            answers.at(key).fail("a key from a to z or 0 to 9", risorius::in_quotes(key));
+        if (!is_key(key)) answers.at(key).fail(kKeys, risorius::in_quotes(key));
         out.answers.emplace_back(key, answers.at(key).string());
     }
     if (out.answers.empty()) answers.fail("at least one key to answer with", "none");
@@ -256,10 +317,40 @@ ExperimentOptions read_experiment(const JsonCursor& json) {
     if (const auto v = json.find("sets"))
         for (const JsonCursor& one : v->items()) out.sets.push_back(one.string());
     if (const auto v = json.find("controls")) out.controls = v->boolean();
-    if (const auto v = json.find("repetitions")) out.repetitions = v->integer(1, 1000);
-    if (const auto v = json.find("fixation_s")) out.fixation_s = v->number({0, 60});
-    if (const auto v = json.find("answer_during")) out.answer_during = v->boolean();
+    read_course(json, out);
+    out.scales = rating_scales();
+    if (const auto v = json.find("scales")) {
+        out.scales.clear();
+        const std::vector<std::string_view> known(rating_scales().begin(), rating_scales().end());
+        for (const JsonCursor& one : v->items()) out.scales.push_back(one.one_of(known));
+    }
     if (const auto v = json.find("jspsych_from")) out.jspsych_from = v->string();
+    return out;
+}
+
+TriggerOptions read_triggers(const JsonCursor& json) {
+    json.allow_keys(
+        {"pulse_ms", "codes", "code_by", "response", "lsl", "wait_for", "dummy_volumes"});
+    TriggerOptions out;
+    const auto codes = json.find("codes");
+    if (codes && codes->one_of({"moments", "condition"}) == "condition") out.code_by = {"stim_id"};
+    if (const auto by = json.find("code_by")) {
+        if (out.code_by.empty()) by->fail("\"codes\": \"condition\" beside it", "none");
+        out.code_by.clear();
+        for (const JsonCursor& one : by->items()) out.code_by.push_back(one.string());
+        if (out.code_by.empty()) by->fail("at least one parameter", "none");
+    }
+    if (const auto pulse = json.find("pulse_ms")) out.pulse_ms = pulse->number({1, 1000});
+    if (const auto v = json.find("response")) out.response = v->boolean();
+    if (const auto v = json.find("lsl")) out.lsl = v->boolean();
+    if (const auto v = json.find("wait_for")) {
+        out.wait_for = v->string();
+        if (!is_key(out.wait_for)) v->fail(kKeys, risorius::in_quotes(out.wait_for));
+    }
+    if (const auto v = json.find("dummy_volumes")) {
+        if (out.wait_for.empty()) v->fail("\"wait_for\" beside it", "none");
+        out.dummy_volumes = v->integer(0, 1000);
+    }
     return out;
 }
 
@@ -269,9 +360,17 @@ void check_experiment(const JsonCursor& json, const Design& design) {
     for (const ConditionSet& set : design.sets) names.push_back(set.name);
     for (std::size_t i = 0; i < design.experiment->sets.size(); ++i)
         index_of_name(json.at("sets").items()[i].place(), design.experiment->sets[i], names);
+    for (const auto& [key, answer] : design.experiment->answers)
+        if (key == design.triggers.wait_for)
+            json.at("answers").at(key).fail("a key that the pulses of the scanner do not press");
 }
 
 }  // namespace
+
+const std::vector<std::string>& rating_scales() {
+    static const std::vector<std::string> kNames{"valence", "arousal", "intensity", "naturalness"};
+    return kNames;
+}
 
 const std::vector<std::string>& aoi_names() {
     static const std::vector<std::string> kNames{"eye_l", "eye_r", "brow_l", "brow_r",
@@ -304,19 +403,7 @@ Design read_design(const std::filesystem::path& file) {
         if (const auto text = v->find("license")) design.dataset.license = text->string();
         if (const auto text = v->find("copyright")) design.dataset.copyright = text->string();
     }
-    if (const auto v = json.find("triggers")) {
-        v->allow_keys({"pulse_ms", "codes", "code_by"});
-        const auto codes = v->find("codes");
-        if (codes && codes->one_of({"moments", "condition"}) == "condition")
-            design.code_by = {"stim_id"};
-        if (const auto by = v->find("code_by")) {
-            if (design.code_by.empty()) by->fail("\"codes\": \"condition\" beside it", "none");
-            design.code_by.clear();
-            for (const JsonCursor& one : by->items()) design.code_by.push_back(one.string());
-            if (design.code_by.empty()) by->fail("at least one parameter", "none");
-        }
-        if (const auto pulse = v->find("pulse_ms")) design.pulse_ms = pulse->number({1, 1000});
-    }
+    if (const auto v = json.find("triggers")) design.triggers = read_triggers(*v);
     if (const auto v = json.find("parameters")) design.parameters = read_values(*v);
     std::set<std::string> names;
     for (const JsonCursor& set : json.at("sets").items()) {
@@ -325,7 +412,7 @@ Design read_design(const std::filesystem::path& file) {
             set.at("name").fail("every set's name once",
                                 risorius::in_quotes(design.sets.back().name) + " again");
     }
-    if (design.match.motion)
+    if (design.match.motion && !design.match.motion->share.empty())
         for (ConditionSet& set : design.sets)
             set.factors.push_back({.name = kSeenStep, .levels = design.match.motion->share});
     if (design.sets.empty()) json.at("sets").fail("at least one set of conditions", "none");

@@ -93,11 +93,13 @@ struct LuminanceMatch {
     bool has_maps() const { return histogram || spectrum; }
 };
 
-/// Makes steps of intensity equal as they are seen: adds the factor "seen_step", and sets a parameter by search.
+/// Makes movements equal as they are seen, and sets parameters by search.
 struct MotionMatch {
-    std::vector<JsonCursor>
-        share;       ///< levels of the factor: shares of the motion at full intensity, (0, 1]
-    std::string of;  ///< the parameter, an intensity
+    /// Levels of the factor "seen_step", which is added: shares of the motion at full intensity, (0, 1]. None: steps are as given
+    std::vector<JsonCursor> share;
+    std::string of;                   ///< the parameter, an intensity
+    std::optional<double> apex_s;     ///< when the movement is at its apex, s
+    std::string apex_of = "onset_s";  ///< the parameter, a duration in s
 };
 
 /// What is made equal in all clips.
@@ -109,7 +111,7 @@ struct Match {
 
 /// The example experiment: what is shown to a participant, and which question is asked.
 struct ExperimentOptions {
-    std::vector<std::string> programs;  ///< "psychopy", "jspsych"
+    std::vector<std::string> programs;  ///< "psychopy", "jspsych", "rating"
     std::string question = "Which one was it?";
     std::vector<std::pair<std::string, std::string>> answers;  ///< key to press, and its meaning
     /// Parameter of the design whose value is the right answer
@@ -119,8 +121,33 @@ struct ExperimentOptions {
     int repetitions = 1;
     double fixation_s = 0.5;
     bool answer_during = false;  ///< whether a key pressed while the clip is shown is the answer
+    int blocks = 1;              ///< with a pause between two of them
+    int practice = 0;  ///< trials before the first block, which tell whether an answer is right
+    double catch_share = 0;  ///< trials with a dot to be reported / trials, [0, 0.5]
+    /// Which clip comes next. Constant: all, in random order. Staircase and QUEST: the one whose level is nearest to where the
+    /// participant's threshold is looked for.
+    enum class Method { kConstant, kStaircase, kQuest } method = Method::kConstant;
+    std::string over = "seen_share";     ///< the level: "seen_share", or a parameter with numbers
+    std::vector<std::string> series_by;  ///< parameters; each combination of values has a threshold
+    int trials = 40;                     ///< of each threshold
+    /// What a rater is asked for each clip, of rating_scales()
+    std::vector<std::string> scales;
     /// Packages of jsPsych: a URL or a folder
     std::string jspsych_from = "https://cdn.jsdelivr.net/npm";
+};
+
+/// The scales of ratings: "valence", "arousal", "intensity", "naturalness".
+const std::vector<std::string>& rating_scales();
+
+/// The codes that go out with the clips.
+struct TriggerOptions {
+    double pulse_ms = 10;  ///< minimum time that a code stays on the line
+    /// Parameters, or "control", whose values choose the code of clip_on; "stim_id": each clip has its own. None: it is always 1.
+    std::vector<std::string> code_by;
+    bool response = false;  ///< whether an answer has a code too
+    bool lsl = false;       ///< whether the codes are also markers of the Lab Streaming Layer
+    std::string wait_for;   ///< key that the pulses of a scanner press; empty: no scanner
+    int dummy_volumes = 0;  ///< pulses before the one that begins the run
 };
 
 /// What the data set says about itself.
@@ -138,9 +165,7 @@ struct Design {
     Match match;
     std::optional<ExperimentOptions> experiment;
     DatasetOptions dataset;
-    double pulse_ms = 10;  ///< minimum time that a trigger code stays on the line
-    /// Parameters, or "control", whose values choose the code of clip_on; "stim_id": each clip has its own. None: it is always 1.
-    std::vector<std::string> code_by;
+    TriggerOptions triggers;
     std::vector<Given> parameters;
     std::vector<ConditionSet> sets;
 };

@@ -21,6 +21,8 @@ std::string number(double value) {
     return text.data();
 }
 
+constexpr std::size_t kFacesInMessage = 10;  ///< of an edge that has more
+
 /// One side of a face. Sorted, the sides of an edge are next to each other.
 struct FaceSide {
     int low, high, face;
@@ -187,8 +189,10 @@ class MeshInspector {
             const std::string context = "(" + group_of(side.face) + ", " + at(middle) + ")";
             if (end - begin > 2) {
                 std::string list;
-                for (std::size_t i = begin; i < end; ++i)
+                const std::size_t last = std::min(end, begin + kFacesInMessage);
+                for (std::size_t i = begin; i < last; ++i)
                     (list += i > begin ? ", " : "") += std::to_string(sides[i].face);
+                if (last < end) list += " ...";
                 add(MeshCheck::kNonManifoldEdge, options_.non_manifold_edge, where,
                     "one or two faces",
                     std::to_string(end - begin) + ", faces " + list + " " + context);

@@ -62,30 +62,37 @@ std::vector<std::vector<int>> boundary_loops(const Triangles& triangles,
     for (auto& [start, list] : ends) std::sort(list.rbegin(), list.rend());
 
     std::vector<std::vector<int>> loops;
+    // Where a vertex stands in the chain, -1: not in it. A boundary can be as long as the mesh has vertices.
+    std::vector<int> place(triangles.rows() > 0 ? triangles.maxCoeff() + 1 : 0, -1);
     for (auto& [start, list] : ends) {
         while (!list.empty()) {
             // Walks until the chain meets itself, cuts that loop off, and continues with the rest of the chain.
             std::vector<int> chain{start};
+            place[start] = 0;
             while (!chain.empty()) {
                 const auto out = ends.find(chain.back());
                 if (out == ends.end() || out->second.empty()) {
                     // An open chain; it occurs only where winding is inconsistent.
+                    place[chain.back()] = -1;
                     chain.pop_back();
                     continue;
                 }
                 const int next = out->second.back();
                 out->second.pop_back();
-                const auto met = std::find(chain.begin(), chain.end(), next);
-                if (met == chain.end()) {
+                if (place[next] < 0) {
+                    place[next] = static_cast<int>(chain.size());
                     chain.push_back(next);
                     continue;
                 }
+                const auto met = chain.begin() + place[next];
                 std::vector<int> loop(met, chain.end());
+                for (auto cut = met + 1; cut != chain.end(); ++cut) place[*cut] = -1;
                 chain.erase(met + 1, chain.end());
                 std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
                 loops.push_back(std::move(loop));
                 if (chain.size() == 1) break;
             }
+            place[start] = -1;
         }
     }
     std::sort(loops.begin(), loops.end());

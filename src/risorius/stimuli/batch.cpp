@@ -32,6 +32,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr int kMostPlanners = 8;
 constexpr double kScene_s = 2;  // estimated time on two cores to build face, scene and view
 
 /// Calls make(i, session) for all i < count, with one thread per worker. Each worker has its own session.
@@ -56,6 +57,40 @@ void for_each(std::size_t count, int workers,
         work();
     }
     if (failure) std::rethrow_exception(failure);
+}
+
+/// Plans all clips on several threads. Throws what the first clip throws that cannot be planned. Recordings are read one after another.
+std::vector<ClipPlan> plan_clips(std::vector<design::Condition> conditions,
+                                 const std::map<std::string, double>& lead_s,
+                                 const design::Design& design, animate::RenderInputs& inputs) {
+    const bool heard = std::any_of(conditions.begin(), conditions.end(),
+                                   [](const auto& one) { return one.audio.has_value(); });
+    std::vector<ClipPlan> out(conditions.size());
+    SoundPlans sounds;
+    std::atomic<std::size_t> next{0};
+    std::exception_ptr failure;
+    std::size_t failed = conditions.size();
+    std::mutex mutex;
+    const auto work = [&] {
+        for (std::size_t i; (i = next++) < conditions.size();) try {
+                const double lead = lead_s.at(conditions[i].set);
+                out[i] = plan_clip(std::move(conditions[i]), lead, design, inputs, sounds);
+                if (conditions.size() > kClipsPerFolder) out[i].folder = folder_of_clips(i);
+            } catch (...) {
+                const std::lock_guard lock(mutex);
+                if (i < failed) failure = std::current_exception();
+                failed = std::min(failed, i);
+                next = conditions.size();
+            }
+    };
+    {
+        const int workers = heard ? 1 : std::min(ThreadLimit().count(), kMostPlanners);
+        std::vector<std::jthread> threads;
+        for (int t = 1; t < workers && add_thread(threads, work);) ++t;
+        work();
+    }
+    if (failure) std::rethrow_exception(failure);
+    return out;
 }
 
 /// Numbers the conditions, and marks which unmatched renders are needed again when the clip itself is made.
@@ -123,7 +158,7 @@ BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped)
     plan.name = design.name;
     plan.match = design.match;
     plan.experiment = design.experiment;
-    plan.pulse_ms = design.pulse_ms;
+    plan.triggers = design.triggers;
     plan.dataset = design.dataset;
     for (const design::ConditionSet& set : design.sets)
         if (set.sample)
@@ -132,20 +167,22 @@ BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped)
         if (!set.fraction.empty() || set.draw)
             plan.balances.emplace_back(set.name, design::balance_of(set, design.seed));
     plan.inputs = std::make_shared<animate::RenderInputs>(stopped);
-    SoundPlans sounds;
     MotionMatch motion(design.clips.quality, *plan.inputs, {.progress = {}, .stopped = stopped});
-    const auto find = [&](double share, const std::function<Json(double)>& script_at,
-                          const fs::path& folder, const std::string& place) {
-        return motion.intensity_for(share, script_at, folder, place);
-    };
-    const std::vector<design::Condition> conditions = design::conditions_of(design, find);
+    const design::MotionSearch search{
+        [&](double share, const design::MotionSearch::Script& script_at, const fs::path& folder,
+            const std::string& place) {
+            return motion.intensity_for(share, script_at, folder, place);
+        },
+        [&](double apex_s, const design::MotionSearch::Script& script_at, const fs::path& folder,
+            const std::string& place) {
+            return motion.time_for(apex_s, script_at, folder, place);
+        }};
+    std::vector<design::Condition> conditions = design::conditions_of(design, search);
     // All clips of a set begin as early as its earliest recording, so that they are equally long.
     std::map<std::string, double> lead_s;
     for (const design::Condition& condition : conditions)
         lead_s[condition.set] = std::max(lead_s[condition.set], -condition.audio_start_s);
-    for (const design::Condition& condition : conditions)
-        plan.clips.push_back(
-            plan_clip(condition, lead_s[condition.set], design, *plan.inputs, sounds));
+    plan.clips = plan_clips(std::move(conditions), lead_s, design, *plan.inputs);
     plan.codes = codes_of_clips(plan.clips, design);
     share_renders(plan.clips);
     name_maps(plan);

@@ -41,7 +41,7 @@ struct BatchPlan {
     std::vector<std::pair<std::string, design::SampleBalance>> samples;
     design::Match match;
     std::optional<design::ExperimentOptions> experiment;
-    double pulse_ms = 10;  ///< see design::Design
+    design::TriggerOptions triggers;
     CodesOfClips codes;
     design::DatasetOptions dataset;
     /// For each set of conditions that uses only a part of its crossing: how balanced that part is (design/detail/crossing.h). The key

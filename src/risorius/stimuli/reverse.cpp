@@ -17,6 +17,7 @@
 #include "risorius/design/table.h"
 #include "risorius/report/html_writer.h"
 #include "risorius/stimuli/detail/catalogue.h"
+#include "risorius/stimuli/detail/model_pictures.h"
 
 namespace risorius::stimuli {
 
@@ -89,6 +90,9 @@ void add_answers(const fs::path& file, const TrialIndex& index, Observations& ou
             throw Error(place, "a stimulus_id, or without one a trial, of the sample",
                         key.empty() ? "none" : in_quotes(key));
         answer.trial = trial->second;
+        for (const design::Given& cell : row)
+            if (cell.name == "intensity" && !text_of_cell(cell.value).empty())
+                answer.intensity = cell.value.number({-1e6, 1e6});
         const auto who = std::find(out.participants.begin(), out.participants.end(), participant);
         answer.participant = static_cast<int>(who - out.participants.begin());
         if (who == out.participants.end()) out.participants.push_back(participant);
@@ -129,6 +133,10 @@ Json json_of(const UnitModel& unit, bool by_participant) {
         Json value = json_of(one.model);
         value["r"] = one.r;
         value["p"] = one.p;
+        if (one.r_intensity) {
+            value["r_intensity"] = *one.r_intensity;
+            value["p_intensity"] = *one.p_intensity;
+        }
         out["course"][design::course_parameters()[k]] = std::move(value);
     }
     return out;
@@ -145,7 +153,8 @@ std::string table_of(const std::vector<AnswerModel>& models, bool by_participant
         "answer\tunit\trole\tshown\tanswered\tr\tr_low\tr_high\tweight\tweight_low\tweight_high";
     if (by_participant) out += "\tfound_in";
     for (const std::string& name : design::course_parameters())
-        for (const char* end : {"", "_low", "_high", "_p"}) out += "\t" + name + end;
+        for (const char* end : {"", "_low", "_high", "_p", "_r_intensity", "_p_intensity"})
+            out += "\t" + name + end;
     out += "\n";
     for (const AnswerModel& model : models)
         for (const UnitModel& unit : model.units) {
@@ -158,12 +167,14 @@ std::string table_of(const std::vector<AnswerModel>& models, bool by_participant
             if (by_participant) out += "\t" + std::to_string(unit.found_in);
             for (std::size_t k = 0; k < design::course_parameters().size(); ++k) {
                 if (unit.parameters.empty()) {
-                    for (int i = 0; i < 4; ++i) out += std::string("\t") + kMissingCell;
+                    for (int i = 0; i < 6; ++i) out += std::string("\t") + kMissingCell;
                     continue;
                 }
                 const ParameterModel& one = unit.parameters[k];
                 for (const double value : {one.model.value, one.model.low, one.model.high, one.p})
                     out += "\t" + four_decimals(value);
+                for (const std::optional<double>& value : {one.r_intensity, one.p_intensity})
+                    out += "\t" + (value ? four_decimals(*value) : std::string(kMissingCell));
             }
             out += "\n";
         }
@@ -185,7 +196,15 @@ std::optional<Json> script_of(const AnswerModel& model, const std::string& rig, 
     return design::with_units(script, courses, std::ceil(10 * (end + kAfter_s)) / 10, "model");
 }
 
-std::string page_of(const std::vector<AnswerModel>& models) {
+/// The files of an answer begin with this.
+std::string stem_of(const AnswerModel& model) { return "model_" + design::clip_word(model.answer); }
+
+bool has_expression(const AnswerModel& model) {
+    return std::any_of(model.units.begin(), model.units.end(),
+                       [](const UnitModel& unit) { return unit.role == Role::kFacilitates; });
+}
+
+std::string page_of(const std::vector<AnswerModel>& models, bool pictures) {
     report::HtmlWriter html;
     html.element("h1", "What each answer needs");
     html.element("p",
@@ -198,6 +217,15 @@ std::string page_of(const std::vector<AnswerModel>& models) {
                               " trials. By chance the correlations of all units stay between " +
                               four_decimals(model.threshold_down) + " and " +
                               four_decimals(model.threshold_up) + ".");
+        if (pictures && has_expression(model)) {
+            html.element("video", "",
+                         {{"src", stem_of(model) + ".mp4"}, {"controls", ""}, {"loop", ""}});
+            html.open("p")
+                .single("img", {{"src", stem_of(model) + ".png"},
+                                {"alt", "The expression of " + model.answer +
+                                            " over time, with both ends of its interval"}})
+                .close();
+        }
         html.open("table").open("tr");
         for (const char* head : {"unit", "role", "correlation", "weight", "amplitude", "onset, s",
                                  "peak, s", "offset, s"})
@@ -237,13 +265,17 @@ void count_participants(const Observations& all, const ClassificationOptions& op
     }
 }
 
-void write_scripts(const std::vector<AnswerModel>& models, const fs::path& rig, const fs::path& out,
-                   OutputSet& outputs) {
+/// Writes the expressions, and their pictures.
+void write_scripts(const std::vector<AnswerModel>& models, const ReverseOptions& options,
+                   OutputSet& outputs, const ProgressMonitor& monitor) {
+    const fs::path &rig = options.rig, &out = options.out;
     std::map<std::string, std::string> taken;
     const std::string seen =
         rig.is_absolute() && out.is_relative()
             ? rig.generic_string()
             : fs::relative(fs::absolute(rig), fs::absolute(out)).generic_string();
+    std::optional<ModelPictures> pictures;
+    if (options.pictures) pictures.emplace(outputs, monitor);
     for (const AnswerModel& model : models) {
         const std::string word = design::clip_word(model.answer);
         const auto [other, is_new] = taken.emplace(word, model.answer);
@@ -256,6 +288,12 @@ void write_scripts(const std::vector<AnswerModel>& models, const fs::path& rig, 
             if (const auto script = script_of(model, seen, which))
                 write_file(outputs.file(out / ("model_" + word + ending + ".json")),
                            json_text(*script, 1) + "\n");
+        if (!pictures || !has_expression(model)) continue;
+        const std::string near = fs::absolute(rig).generic_string();
+        pictures->write({{"low", *script_of(model, near, -1)},
+                         {"model", *script_of(model, near, 0)},
+                         {"high", *script_of(model, near, 1)}},
+                        1, out / ("model_" + word));
     }
 }
 
@@ -320,8 +358,8 @@ Json reverse_correlation(const ReverseOptions& options, const ProgressMonitor& m
     OutputSet outputs(options.out);
     write_file(outputs.file(options.out / "model.json"), json_text(json, 1) + "\n");
     write_file(outputs.file(options.out / "model.tsv"), table_of(models, options.by_participant));
-    write_file(outputs.file(options.out / "index.html"), page_of(models));
-    write_scripts(models, options.rig, options.out, outputs);
+    write_file(outputs.file(options.out / "index.html"), page_of(models, options.pictures));
+    write_scripts(models, options, outputs, monitor);
     monitor.throw_if_stopped();
     outputs.commit();
     return json;

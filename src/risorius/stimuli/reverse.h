@@ -4,7 +4,8 @@
 ///
 ///   model.tsv, model.json     for each answer and unit: correlation, weight, role and course, with intervals
 ///   model_ANSWER.json         the resulting expression, a script; _low and _high: the ends of the interval of its amplitudes
-///   index.html                both as a page
+///   model_ANSWER.mp4, .png    the expression as a video, and as a strip of pictures with both ends of the interval
+///   index.html                all of it as a page
 #pragma once
 
 #include <filesystem>
@@ -24,6 +25,7 @@ struct ReverseOptions {
     std::vector<std::filesystem::path> responses;
     std::filesystem::path out, rig;
     std::vector<std::string> answers;  ///< those that get a model; empty: all that were given
+    bool pictures = true;              ///< whether the expressions are also rendered
     bool by_participant = false;  ///< whether it is told in how many participants a unit is found
     ClassificationOptions classification;
 };

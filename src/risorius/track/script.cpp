@@ -166,13 +166,17 @@ class Reader {
         event.offset_s = optional_number(json, "offset_s", times.offset_s, {0, 60});
         event.side = read_side(json);
         event.asymmetry = optional_number(json, "asymmetry", 0, {0, kMaxAsymmetry});
-        // Random numbers are drawn in a way that is the same for every standard library.
-        std::seed_seq seed{header.seed, number};
-        std::mt19937 random(seed);
-        const Side weaker = random() % 2 ? Side::kLeft : Side::kRight;
-        const double chance = (random() >> 8) * 0x1p-24;
-        const double lag = event.onset_s > 0 ? kLatestSide_s * chance / event.onset_s : 0.0;
         const bool even = event.asymmetry == 0;
+        Side weaker = Side::kLeft;
+        double chance = 0;
+        if (!even) {
+            // Random numbers are drawn in a way that is the same for every standard library.
+            std::seed_seq seed{header.seed, number};
+            std::mt19937 random(seed);
+            weaker = random() % 2 ? Side::kLeft : Side::kRight;
+            chance = (random() >> 8) * 0x1p-24;
+        }
+        const double lag = event.onset_s > 0 ? kLatestSide_s * chance / event.onset_s : 0.0;
         const double least = 1 - event.asymmetry * (0.5 + 0.5 * chance);
         // Adds a part on the side that it has, or both sides of it apart when they differ.
         const auto add =

@@ -22,6 +22,15 @@ Pointer pointer_of(const std::string& text) {
     throw Error("edit", "a JSON pointer to a part of the script", in_quotes(text));
 }
 
+/// Whether a value has such a place. The library throws where it should say no: for an index without digits, or beyond 2^64.
+bool has_place(const Json& value, const Pointer& pointer) {
+    try {
+        return value.contains(pointer);
+    } catch (const Json::exception&) {
+        return false;
+    }
+}
+
 /// The number of an entry of an array, or its size for one that is to be appended.
 std::size_t index_of(const std::string& text, const Json& array, const std::string& pointer) {
     const bool digits = !text.empty() && text.size() < 9 &&
@@ -87,7 +96,7 @@ std::string Document::text() const {
 Operation Document::make(const Operation& operation) {
     const Pointer pointer = pointer_of(operation.pointer);
     const Pointer above = pointer.parent_pointer();
-    if (!above.empty() && !json_->contains(above))
+    if (!above.empty() && !has_place(*json_, above))
         throw Error("edit " + operation.pointer, "a place in the script", "none");
     Json& parent = above.empty() ? *json_ : (*json_)[above];
     const std::string& key = pointer.back();

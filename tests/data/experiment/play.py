@@ -5,9 +5,10 @@
     play.py ROOT PAGE DATA BROWSER... [--dead-save]
 
 ROOT is served on the loopback, PAGE is the page below it, DATA the file for what the page posts. Keys are pressed where it
-waits for one: "a" for every answer. Fails when nothing is posted within two minutes.
+waits for one: "a" for every answer, the space bar for a red dot. A form of ratings gets the third choice of each question.
+Fails when nothing is posted within two minutes.
 
-With --dead-save the address that the page saves to answers 503. DATA then gets what is left to the participant: the file that
+With --dead-save the address that the page saves to answers 503. DATA then gets what is left to the participant: the files that
 the page offers, the trials that the browser keeps, and the names that the page offers when it is opened again.
 """
 import functools
@@ -39,8 +40,9 @@ setInterval(async () => {
     const unsaved = page.querySelector('#unsaved');
     if (unsaved && !left) {
         left = {};
-        const link = page.querySelector('a[download]');
-        left = {file: link.download, csv: await (await fetch(link.href)).text(), kept: await kept()};
+        const links = [...page.querySelectorAll('a[download]')], files = {};
+        for (const link of links) files[link.download] = await (await fetch(link.href)).text();
+        left = {file: links[0].download, csv: files[links[0].download], files, kept: await kept()};
         experiment.contentWindow.location.reload();
         return;
     }
@@ -49,9 +51,21 @@ setInterval(async () => {
         if (left.kept && offered.length) fetch('/data', {method: 'POST', body: JSON.stringify({...left, offered})});
         return;
     }
-    if (!page.querySelector('kbd')) return;
+    const form = page.querySelector('#jspsych-survey-html-form');
+    if (form) {
+        for (const name of new Set([...form.querySelectorAll('input[type=radio]')].map((input) => input.name))) {
+            const choices = form.querySelectorAll(`input[name="${name}"]`);
+            choices[Math.min(2, choices.length - 1)].click();
+        }
+        form.querySelector('#jspsych-survey-html-form-next').click();
+        return;
+    }
+    const dot = page.querySelector('.dot');
+    const key = dot && dot.style.visibility === 'visible' ? ' '
+        : page.querySelector('kbd') || page.body.textContent.includes('Press any key') ? 'a' : null;
+    if (!key) return;
     for (const kind of ['keydown', 'keyup'])
-        page.querySelector('.jspsych-content').dispatchEvent(new KeyboardEvent(kind, {key: 'a', bubbles: true}));
+        page.querySelector('.jspsych-content').dispatchEvent(new KeyboardEvent(kind, {key, bubbles: true}));
 }, 100);
 document.getElementById('experiment').addEventListener('load', (event) => {
     event.target.contentWindow.addEventListener('error', (error) =>

@@ -23,7 +23,7 @@ struct State {
         std::vector<fs::path> made;
     };
     std::map<fs::path, Output> outputs;  ///< of each private folder
-    int deciding = 0;                    ///< commits and steps that must not be cut off
+    int deciding = 0;                    ///< commits, removals and steps that must not be cut off
     bool abandoned = false;
     std::atomic<bool> decided{false}, any_committed{false};
 };
@@ -66,6 +66,16 @@ Decision::Decision() {
 }
 
 Decision::~Decision() {
+    const std::lock_guard lock(state().mutex);
+    --state().deciding;
+}
+
+Removal::Removal() {
+    const std::lock_guard lock(state().mutex);
+    ++state().deciding;
+}
+
+Removal::~Removal() {
     const std::lock_guard lock(state().mutex);
     --state().deciding;
 }

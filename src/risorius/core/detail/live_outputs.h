@@ -35,4 +35,14 @@ class Decision {
     void succeeded(bool last) const;
 };
 
+/// Exists while a set removes what it wrote. Without it, the program could end in the middle: the set no longer counts as
+/// one that is to be abandoned, and is not gone yet.
+class Removal {
+  public:
+    Removal();
+    ~Removal();
+    Removal(const Removal&) = delete;
+    Removal& operator=(const Removal&) = delete;
+};
+
 }  // namespace risorius::detail

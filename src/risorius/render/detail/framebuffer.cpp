@@ -19,6 +19,8 @@ void check_range(const char* field, int value, int min, int max) {
 
 Framebuffer::Framebuffer(int width, int height, Colour colour) {
     const bool floats = colour == Colour::kLinearFloats;
+    constexpr std::size_t kBeside = 200'000'000;
+    require_memory(kBeside + (floats ? 20u : 8u) * static_cast<std::size_t>(width) * height);
     glGenTextures(2, colours_);
     glBindTexture(GL_TEXTURE_2D, colours_[0]);
     glTexStorage2D(GL_TEXTURE_2D, 1, floats ? GL_RGBA32F : GL_SRGB8_ALPHA8, width, height);

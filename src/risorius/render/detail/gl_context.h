@@ -3,6 +3,7 @@
 /// A context of OpenGL 4.5 core without a window, and ownership of GL programs.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,6 +11,10 @@
 #include "risorius/render/detail/gl.h"
 
 namespace risorius::render {
+
+/// Throws RunError when the process may not have as many bytes more (ulimit -v). llvmpipe and its compiler do not ask whether
+/// they got memory: without it, the process would crash.
+void require_memory(std::size_t bytes);
 
 class GlContext {
   public:

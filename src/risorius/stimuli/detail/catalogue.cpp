@@ -148,7 +148,7 @@ void add_norms(const BatchPlan& plan, const Norms& norms, std::vector<Column>& c
                        share(&Share::low)});
     columns.push_back({"norm_hit_high", described("Upper end of its interval of 95 % (Wilson)"),
                        share(&Share::high)});
-    for (const std::string& scale : rating_scales()) {
+    for (const std::string& scale : design::rating_scales()) {
         const bool any = std::any_of(norms.clips.begin(), norms.clips.end(), [&](const auto& clip) {
             return clip.second.means.count(scale) > 0;
         });
@@ -182,10 +182,8 @@ std::vector<Column> columns_of(const BatchPlan& plan, const std::vector<Json>& r
          }},
         {"type", described("Kind of the file"),
          [&clips](std::size_t i) { return Json(clip_type(clips[i])); }},
-        {"filename", described("The file, in this folder"),
-         [&clips](std::size_t i) {
-             return Json(clip_files(clips[i]).video.filename().generic_string());
-         }},
+        {"filename", described("The file, in this folder or below"),
+         [&clips](std::size_t i) { return Json(file_in_stimuli(clips[i])); }},
         {"license", described("Licence of the file"), same(plan.dataset.license)},
         {"copyright", described("Who holds the rights"), same(plan.dataset.copyright)},
         {"description", described("What it shows"),

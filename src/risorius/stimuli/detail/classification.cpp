@@ -20,7 +20,8 @@ constexpr int kNewtonSteps = 25;
 constexpr double kNewtonEnd = 1e-9;
 constexpr double kTunedShare = 0.75;  // of the range of a parameter that matters
 constexpr double kShortestFlank_s = 0.05;
-enum Purpose : std::uint64_t { kPermuting = 1, kTuning, kResampling };
+enum Purpose : std::uint64_t { kPermuting = 1, kTuning, kResampling, kGrading };
+constexpr std::size_t kLeastIntensities = 10;  // of a unit, for a correlation with them
 
 /// The answers of one question as numbers.
 struct Table {
@@ -207,32 +208,93 @@ Shown shown_of(const Observations& observations, const std::string& unit) {
     return out;
 }
 
-double pearson(const std::vector<double>& x, const std::vector<char>& y) {
+template <class Value>
+double pearson(const std::vector<double>& x, const std::vector<Value>& y) {
     const auto n = static_cast<double>(x.size());
-    double sx = 0, sy = 0, sxx = 0, sxy = 0;
+    double sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
         sx += x[i];
         sy += y[i];
         sxx += x[i] * x[i];
         sxy += x[i] * y[i];
+        syy += y[i] * y[i];
     }
-    const double spread = (sxx - sx * sx / n) * (sy - sy * sy / n);
+    const double spread = (sxx - sx * sx / n) * (syy - sy * sy / n);
     return spread > 0 ? (sxy - sx * sy / n) / std::sqrt(spread) : 0;
 }
 
-/// Corrects the p of the parameters of a unit for their number, by Holm's method.
-void correct(std::vector<ParameterModel>& parameters) {
-    std::vector<std::size_t> order(parameters.size());
+/// Corrects p for the number of parameters of a unit, by Holm's method.
+void correct(std::vector<double>& p) {
+    std::vector<std::size_t> order(p.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return std::pair(parameters[a].p, a) < std::pair(parameters[b].p, b);
+        return std::pair(p[a], a) < std::pair(p[b], b);
     });
     double least = 0;
     for (std::size_t i = 0; i < order.size(); ++i) {
-        double& p = parameters[order[i]].p;
-        least = std::max(least, std::min(1.0, p * static_cast<double>(order.size() - i)));
-        p = least;
-        parameters[order[i]].tuned = p < kLevel;
+        least = std::max(least, std::min(1.0, p[order[i]] * static_cast<double>(order.size() - i)));
+        p[order[i]] = least;
+    }
+}
+
+/// Where the answers of each participant begin among some rows, and their end.
+std::vector<std::size_t> firsts_of(const Observations& observations,
+                                   const std::vector<std::size_t>& rows) {
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (i == 0 || observations.answers[rows[i]].participant !=
+                          observations.answers[rows[i - 1]].participant)
+            out.push_back(i);
+    out.push_back(rows.size());
+    return out;
+}
+
+/// For each column of x: how often y that is permuted within each participant correlates with it as strongly as y does.
+template <class Value>
+std::vector<double> chances(const std::vector<std::vector<double>>& x, const std::vector<Value>& y,
+                            const std::vector<std::size_t>& first,
+                            const ClassificationOptions& options, Purpose purpose,
+                            std::uint64_t number) {
+    std::vector<double> r;
+    for (const std::vector<double>& column : x) r.push_back(std::abs(pearson(column, y)));
+    std::vector<int> larger(x.size());
+    for (int round = 0; round < options.permutations; ++round) {
+        Chance chance(options.seed, purpose,
+                      number * static_cast<std::uint64_t>(options.permutations) +
+                          static_cast<std::uint64_t>(round));
+        std::vector<Value> other = y;
+        for (std::size_t p = 0; p + 1 < first.size(); ++p)
+            shuffle<Value>(other.begin() + static_cast<std::ptrdiff_t>(first[p]),
+                           first[p + 1] - first[p], chance);
+        for (std::size_t k = 0; k < x.size(); ++k)
+            larger[k] += std::abs(pearson(x[k], other)) >= r[k] * (1 - 1e-12);
+    }
+    std::vector<double> out;
+    for (const int count : larger) out.push_back((1.0 + count) / (1.0 + options.permutations));
+    correct(out);
+    return out;
+}
+
+/// What the rated intensities of an answer say about the parameters, in the trials that show the unit.
+void add_intensity(const Observations& observations, const Table& table, const Shown& shown,
+                   const ClassificationOptions& options, std::uint64_t number, UnitModel& unit) {
+    std::vector<std::size_t> rows;
+    std::vector<double> intensity;
+    std::vector<std::vector<double>> values(unit.parameters.size());
+    for (std::size_t i = 0; i < shown.rows.size(); ++i) {
+        const auto& rated = observations.answers[shown.rows[i]].intensity;
+        if (!rated || !table.hit[shown.rows[i]]) continue;
+        rows.push_back(shown.rows[i]);
+        intensity.push_back(*rated);
+        for (std::size_t k = 0; k < values.size(); ++k)
+            values[k].push_back(design::parameter(*shown.courses[i], k));
+    }
+    if (rows.size() < kLeastIntensities) return;
+    const std::vector<double> p =
+        chances(values, intensity, firsts_of(observations, rows), options, kGrading, number);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        unit.parameters[k].r_intensity = pearson(values[k], intensity);
+        unit.parameters[k].p_intensity = p[k];
     }
 }
 
@@ -261,13 +323,7 @@ void add_parameters(const Observations& observations, const Table& table,
     const Shown shown = shown_of(observations, unit.unit);
     std::vector<char> hits;
     for (const std::size_t row : shown.rows) hits.push_back(table.hit[row]);
-    // Where the rows of each participant begin among these
-    std::vector<std::size_t> first;
-    for (std::size_t i = 0; i < shown.rows.size(); ++i)
-        if (i == 0 || observations.answers[shown.rows[i]].participant !=
-                          observations.answers[shown.rows[i - 1]].participant)
-            first.push_back(i);
-    first.push_back(shown.rows.size());
+    const std::vector<std::size_t> first = firsts_of(observations, shown.rows);
     const std::size_t parameters = design::course_parameters().size();
     std::vector<std::vector<double>> values(parameters);
     for (std::size_t k = 0; k < parameters; ++k) {
@@ -275,22 +331,12 @@ void add_parameters(const Observations& observations, const Table& table,
             values[k].push_back(design::parameter(*course, k));
         unit.parameters.push_back({.model = {}, .r = pearson(values[k], hits), .p = 1});
     }
-    std::vector<int> larger(parameters);
-    for (int round = 0; round < options.permutations; ++round) {
-        Chance chance(options.seed, kTuning,
-                      number * static_cast<std::uint64_t>(options.permutations) +
-                          static_cast<std::uint64_t>(round));
-        std::vector<char> other = hits;
-        for (std::size_t p = 0; p + 1 < first.size(); ++p)
-            shuffle<char>(other.begin() + static_cast<std::ptrdiff_t>(first[p]),
-                          first[p + 1] - first[p], chance);
-        for (std::size_t k = 0; k < parameters; ++k)
-            larger[k] +=
-                std::abs(pearson(values[k], other)) >= std::abs(unit.parameters[k].r) * (1 - 1e-12);
+    const std::vector<double> p = chances(values, hits, first, options, kTuning, number);
+    for (std::size_t k = 0; k < parameters; ++k) {
+        unit.parameters[k].p = p[k];
+        unit.parameters[k].tuned = p[k] < kLevel;
     }
-    for (std::size_t k = 0; k < parameters; ++k)
-        unit.parameters[k].p = (1.0 + larger[k]) / (1.0 + options.permutations);
-    correct(unit.parameters);
+    add_intensity(observations, table, shown, options, number, unit);
     std::vector<std::vector<double>> again(parameters);
     for (int round = 0; round < options.bootstraps; ++round) {
         Chance chance(options.seed, kResampling,

@@ -4,7 +4,8 @@
 ///
 /// Each unit is correlated with the answer over all trials. Answers that are permuted within each participant say how large the
 /// largest correlation over all units is by chance. Units beyond it facilitate or inhibit the answer. Their parameters are tested
-/// in the trials that show them. Bootstraps of trials give intervals of 95 %.
+/// in the trials that show them, against the answer, and against its intensity where that was rated. Bootstraps of trials give
+/// intervals of 95 %.
 ///
 /// Sources: Yu, Garrod, Schyns 2012, Computers & Graphics 36(3), 152-162; Jack, Garrod, Yu, Caldara, Schyns 2012, PNAS 109(19),
 /// 7241-7244. Permutation of maxima: Nichols, Holmes 2002, Human Brain Mapping 15, 1-25. Several tests of one unit: Holm 1979,
@@ -12,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,7 @@ struct Observations {
     struct Answer {
         int participant = 0, trial = 0;  ///< trial: an index
         std::string given;
+        std::optional<double> intensity = {};  ///< how strong it looked, on any scale
     };
     std::vector<Answer> answers;  ///< those of a participant stand together
     std::vector<std::string> participants;
@@ -48,6 +51,8 @@ struct ParameterModel {
     double r = 0;        ///< correlation with the answer
     double p = 1;        ///< by permutation, corrected for the six parameters
     bool tuned = false;  ///< whether p < 0.05
+    /// Correlation with the intensity that was rated in trials with the answer, and p likewise; none with fewer than ten of them
+    std::optional<double> r_intensity = {}, p_intensity = {};
 };
 
 struct UnitModel {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -51,10 +52,12 @@ Json relocated(Json script, const fs::path& from, const fs::path& to) {
 }
 
 fs::path script_file(const ClipPlan& plan, const char* half = "") {
-    return fs::path("code/scripts") / (plan.condition.clip + half + ".json");
+    return fs::path("code/scripts") / (plan.folder + plan.condition.clip + half + ".json");
 }
 
-std::string stem(const ClipPlan& plan) { return "stimuli/stim-" + plan.condition.clip; }
+std::string stem(const ClipPlan& plan) {
+    return "stimuli/" + plan.folder + "stim-" + plan.condition.clip;
+}
 
 std::string suffix(const ClipPlan& plan) { return std::string("_") + clip_type(plan); }
 
@@ -123,6 +126,17 @@ std::vector<fs::path> ClipFiles::listed() const {
     return files;
 }
 
+std::string folder_of_clips(std::size_t index) {
+    char name[32];
+    std::snprintf(name, sizeof name, "b%03zu/", index / kClipsPerFolder);
+    return name;
+}
+
+bool is_folder_of_clips(const std::string& name) {
+    return name.size() >= 4 && name[0] == 'b' &&
+           std::all_of(name.begin() + 1, name.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
 const char* clip_type(const ClipPlan& plan) {
     if (plan.clips.pictures()) return "image";
     return plan.sound ? "audiovideo" : "video";
@@ -133,7 +147,7 @@ ClipFiles clip_files(const ClipPlan& plan) {
         return plan.has_aois() ? fs::path(file) : fs::path();
     };
     return {script_file(plan),
-            fs::path("overview") / (plan.condition.clip + ".png"),
+            fs::path("overview") / (plan.folder + plan.condition.clip + ".png"),
             stem(plan) + suffix(plan) + "." + plan.clips.ending,
             stem(plan) + "_annot-frames_events.tsv",
             stem(plan) + "_annot-frames_events.json",
@@ -141,9 +155,13 @@ ClipFiles clip_files(const ClipPlan& plan) {
             plan.sound ? fs::path(stem(plan) + "_audio.wav") : fs::path(),
             only(stem(plan) + "_annot-aois_events.tsv"),
             only(stem(plan) + "_annot-aois_events.json"),
-            only("aois/" + plan.condition.clip + "_tobii.json"),
-            only("aois/" + plan.condition.clip + ".ias"),
+            only("aois/" + plan.folder + plan.condition.clip + "_tobii.json"),
+            only("aois/" + plan.folder + plan.condition.clip + ".ias"),
             stem(plan) + suffix(plan) + ".json"};
+}
+
+std::string file_in_stimuli(const ClipPlan& plan) {
+    return plan.folder + clip_files(plan).video.filename().generic_string();
 }
 
 Json clip_record(const ClipPlan& plan, const fs::path& folder) {

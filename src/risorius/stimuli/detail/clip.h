@@ -45,10 +45,20 @@ struct MappedLuminance {
     std::vector<double> amplitudes;  ///< by cycles per picture; empty: only the histogram
 };
 
+/// A larger set has its clips in folders of so many each, so that no folder has more than a thousand files.
+inline constexpr std::size_t kClipsPerFolder = 200;
+
+/// Returns "b012/" for the clips 2400 to 2599.
+std::string folder_of_clips(std::size_t index);
+/// Whether it is the name of such a folder.
+bool is_folder_of_clips(const std::string& name);
+
 /// A clip that has been planned and checked, but not made.
 struct ClipPlan {
     design::Condition condition;
     design::ClipOptions clips;
+    /// Of a set with more than kClipsPerFolder clips: the folder of its files, "b012/", below stimuli, overview, aois and code/scripts
+    std::string folder;
     /// Path that names the script in messages; the script itself is in memory
     std::string script_name;
     /// Given when luminance is matched; the clip is then made from an unmatched render (unmatched_render.h).
@@ -87,7 +97,7 @@ struct ClipPlan {
 
 /// Checks the script of a condition against its rig. `lead_s`: how long before the script the earliest recording of the set begins.
 /// Throws Error naming the condition.
-ClipPlan plan_clip(const design::Condition& condition, double lead_s, const design::Design& design,
+ClipPlan plan_clip(design::Condition condition, double lead_s, const design::Design& design,
                    animate::RenderInputs& inputs, SoundPlans& sounds);
 
 /// Returns whether `folder` holds this clip with all its files unchanged.
@@ -105,6 +115,8 @@ struct ClipFiles {
     std::vector<std::filesystem::path> listed() const;
 };
 ClipFiles clip_files(const ClipPlan& plan);
+/// Returns the path of the clip below "stimuli", as tables have it.
+std::string file_in_stimuli(const ClipPlan& plan);
 /// Returns the suffix that BIDS has for the clip's file: video, audiovideo or image.
 const char* clip_type(const ClipPlan& plan);
 

@@ -233,11 +233,12 @@ std::shared_ptr<const ClipPlan> plan_lower_half(const ClipPlan& upper, double le
 
 }  // namespace
 
-ClipPlan plan_clip(const design::Condition& condition, double lead_s, const design::Design& design,
+ClipPlan plan_clip(design::Condition planned, double lead_s, const design::Design& design,
                    animate::RenderInputs& inputs, SoundPlans& sounds) {
     const design::ClipOptions& clips = design.clips;
     ClipPlan plan;
-    plan.condition = condition;
+    plan.condition = std::move(planned);
+    const design::Condition& condition = plan.condition;
     plan.clips = clips;
     plan.luminance = design.match.luminance;
     plan.script_name = script_name(condition, design.file);
@@ -267,11 +268,12 @@ ClipPlan plan_clip(const design::Condition& condition, double lead_s, const desi
                                                       .crf = clips.crf,
                                                       .keyframe_interval = clips.keyframe_interval,
                                                       .lossless = clips.lossless});
-    design::Condition heard = condition;
-    heard.audio_start_s += static_cast<double>(plan.lead_frames) / plan.fps;
-    if (condition.audio)
+    if (condition.audio) {
+        design::Condition heard = condition;
+        heard.audio_start_s += static_cast<double>(plan.lead_frames) / plan.fps;
         plan.sound = sounds.at(heard, static_cast<double>(plan.frames) / plan.fps,
                                design.match.loudness_lufs, json.place());
+    }
     const std::string rig_sha256 = sha256_of_rig(*input);
     plan.scene_sha256 = animate::sha256_of_text(
         json_text(Json{rig_sha256, clips.quality, condition.script.value("view", Json())}));

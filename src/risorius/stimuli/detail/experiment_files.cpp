@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_object.h"
@@ -70,6 +72,36 @@ std::string csv_cell(const std::string& text) {
     return out + "\"";
 }
 
+/// The value of a parameter in a condition, as text; empty when it has none.
+std::string text_of(const design::Condition& condition, const std::string& name) {
+    for (const auto& [key, value] : condition.values)
+        if (key == name) return plain_text(value);
+    return {};
+}
+
+bool is_adaptive(const design::ExperimentOptions& experiment) {
+    return experiment.method != design::ExperimentOptions::Method::kConstant;
+}
+
+/// The level of a clip for an adaptive method, and its series; empty for a clip that the method does not use.
+std::string level_of(const design::ExperimentOptions& experiment, const ClipPlan& clip,
+                     const Json& record) {
+    if (clip.is_control() || correct_key(experiment, clip.condition).empty()) return {};
+    if (experiment.over != "seen_share") return text_of(clip.condition, experiment.over);
+    const Json& seen = record.at("motion").at("seen_mm");
+    const Json& full = record.at("motion").at("full_mm");
+    if (seen.is_null() || full.is_null() || !(full.get<double>() > 0)) return {};
+    return format_number(seen.get<double>() / full.get<double>());
+}
+
+std::string series_of(const design::ExperimentOptions& experiment,
+                      const design::Condition& condition) {
+    std::string out;
+    for (const std::string& name : experiment.series_by)
+        out += (out.empty() ? "" : " ") + text_of(condition, name);
+    return out.empty() ? "all" : out;
+}
+
 /// conditions.csv: a row for each clip.
 std::vector<Json> condition_rows(const BatchPlan& plan, const std::vector<Json>& records) {
     std::vector<std::string> names;
@@ -82,24 +114,22 @@ std::vector<Json> condition_rows(const BatchPlan& plan, const std::vector<Json>&
     for (std::size_t i = 0; i < plan.clips.size(); ++i) {
         const ClipPlan& clip = plan.clips[i];
         if (!is_shown(*plan.experiment, clip.condition)) continue;
-        Json row = json_object(
-            {{"stim_id", clip.condition.clip},
-             {"stim_file", clip_files(clip).video.filename().generic_string()},
-             {"set", clip.condition.set},
-             {"control", clip.condition.control.name()},
-             {"frames", records[i].at("frames")},
-             {"fps", records[i].at("fps")},
-             {"audio_file",
-              clip.sound ? "../stimuli/stim-" + clip.condition.clip + "_audio.wav" : std::string()},
-             {"correct_key", correct_key(*plan.experiment, clip.condition)}});
+        Json row =
+            json_object({{"stim_id", clip.condition.clip},
+                         {"stim_file", file_in_stimuli(clip)},
+                         {"set", clip.condition.set},
+                         {"control", clip.condition.control.name()},
+                         {"frames", records[i].at("frames")},
+                         {"fps", records[i].at("fps")},
+                         {"audio_file", clip.sound ? "../" + clip_files(clip).sound.generic_string()
+                                                   : std::string()},
+                         {"correct_key", correct_key(*plan.experiment, clip.condition)}});
         if (clip.clips.pictures()) row["shown_s"] = clip.clips.shown_s;
-        for (const std::string& name : names) {
-            const auto value =
-                std::find_if(clip.condition.values.begin(), clip.condition.values.end(),
-                             [&](const auto& one) { return one.first == name; });
-            row["value_" + name] =
-                value == clip.condition.values.end() ? "" : plain_text(value->second);
+        if (is_adaptive(*plan.experiment)) {
+            row["level"] = level_of(*plan.experiment, clip, records[i]);
+            row["series"] = series_of(*plan.experiment, clip.condition);
         }
+        for (const std::string& name : names) row["value_" + name] = text_of(clip.condition, name);
         out.push_back(std::move(row));
     }
     return out;
@@ -132,6 +162,50 @@ void check_backgrounds(const BatchPlan& plan) {
     }
 }
 
+/// Throws Error when an adaptive method has no levels to choose from; adds a note when they are few.
+void check_levels(BatchPlan& plan) {
+    const design::ExperimentOptions& experiment = *plan.experiment;
+    for (const std::string& name : experiment.series_by) {
+        bool known = false;
+        for (const ClipPlan& clip : plan.clips)
+            known = known || !text_of(clip.condition, name).empty();
+        if (!known)
+            throw Error("experiment/series_by", "names of parameters", risorius::in_quotes(name));
+    }
+    std::map<std::string, std::set<std::string>> levels;
+    for (const ClipPlan& clip : plan.clips) {
+        if (!is_shown(experiment, clip.condition) || clip.is_control() ||
+            correct_key(experiment, clip.condition).empty())
+            continue;
+        if (experiment.over == "seen_share") {
+            if (clip.clips.pictures())
+                throw Error("experiment/over",
+                            "a parameter with numbers, for pictures, whose motion is not seen",
+                            "\"seen_share\"");
+            // Which share is seen is known when the clips are there; each is a level until then.
+            levels[series_of(experiment, clip.condition)].insert(clip.condition.clip);
+            continue;
+        }
+        const std::string text = text_of(clip.condition, experiment.over);
+        char* end = nullptr;
+        const double number = std::strtod(text.c_str(), &end);
+        if (text.empty() || *end != 0 || !(number > 0))
+            throw Error("experiment/over", "a parameter with numbers above 0 in all clips",
+                        risorius::in_quotes(experiment.over) + ", " + risorius::in_quotes(text) +
+                            " in " + clip.condition.clip);
+        levels[series_of(experiment, clip.condition)].insert(text);
+    }
+    for (const auto& [series, of] : levels) {
+        if (of.size() < 2)
+            throw Error("experiment/method", "two levels at least in each series",
+                        "one in " + risorius::in_quotes(series));
+        if (of.size() < 8)
+            plan.notes.push_back("experiment: the series " + risorius::in_quotes(series) + " has " +
+                                 std::to_string(of.size()) +
+                                 " levels; a method that looks for a threshold wants 8 to 20");
+    }
+}
+
 }  // namespace
 
 void check_experiment(BatchPlan& plan) {
@@ -147,9 +221,10 @@ void check_experiment(BatchPlan& plan) {
         else if (experiment.correct && !clip.is_control())
             without.push_back(clip.condition.clip);
         if (clip.clips.ending != "mp4" && clip.clips.ending != "webm" && !clip.clips.pictures() &&
-            std::find(experiment.programs.begin(), experiment.programs.end(), "jspsych") !=
-                experiment.programs.end())
-            throw Error("clips/ending", "mp4, webm or png, which browsers show, for jspsych",
+            std::any_of(experiment.programs.begin(), experiment.programs.end(),
+                        [](const std::string& one) { return one != "psychopy"; }))
+            throw Error("clips/ending",
+                        "mp4, webm or png, which browsers show, for jspsych and rating",
                         clip.clips.ending);
     }
     check_backgrounds(plan);
@@ -157,6 +232,7 @@ void check_experiment(BatchPlan& plan) {
     if (experiment.correct && !any_correct)
         throw Error("experiment/correct", "a parameter with values that are among the answers",
                     risorius::in_quotes(*experiment.correct));
+    if (is_adaptive(experiment)) check_levels(plan);
     if (!without.empty())
         plan.notes.push_back("experiment: none of the answers is correct for " +
                              std::to_string(without.size()) + " of the clips shown, " +
@@ -181,6 +257,8 @@ void write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
     Json answers = Json::array();
     for (const auto& [key, answer] : experiment.answers)
         answers.push_back(json_object({{"key", key}, {"answer", answer}}));
+    constexpr const char* kMethods[] = {"constant", "staircase", "quest"};
+    const design::TriggerOptions& triggers = plan.triggers;
     const Json settings = json_object({{"name", plan.name},
                                        {"clips", "../stimuli/"},
                                        {"question", experiment.question},
@@ -188,7 +266,17 @@ void write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
                                        {"repetitions", experiment.repetitions},
                                        {"fixation_s", experiment.fixation_s},
                                        {"answer_during", experiment.answer_during},
-                                       {"pulse_ms", plan.pulse_ms},
+                                       {"blocks", experiment.blocks},
+                                       {"practice", experiment.practice},
+                                       {"catch", experiment.catch_share},
+                                       {"method", kMethods[static_cast<int>(experiment.method)]},
+                                       {"trials", experiment.trials},
+                                       {"scales", experiment.scales},
+                                       {"pulse_ms", triggers.pulse_ms},
+                                       {"response", triggers.response},
+                                       {"lsl", triggers.lsl},
+                                       {"wait_for", triggers.wait_for},
+                                       {"dummy_volumes", triggers.dummy_volumes},
                                        {"background", screen_colour(plan)}});
     const auto write = [&](const char* name, const std::string& text) {
         write_below(fs::path("experiment") / name, text);
@@ -199,6 +287,9 @@ void write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
         if (program == "psychopy") write("experiment.py", psychopy_program());
         if (program == "jspsych")
             write("index.html", jspsych_page(plan.name, experiment.jspsych_from,
+                                             json_text(settings, 1), json_text(Json(rows), 1)));
+        if (program == "rating")
+            write("rating.html", rating_page(plan.name, experiment.jspsych_from,
                                              json_text(settings, 1), json_text(Json(rows), 1)));
     }
 }

@@ -7,6 +7,7 @@
 ///   experiment/settings.json     question, keys, times
 ///   experiment/experiment.py     for PsychoPy
 ///   experiment/index.html        for jsPsych, in a browser
+///   experiment/rating.html       for raters, in a browser: their judgements are the norms of the set
 #pragma once
 
 #include <map>

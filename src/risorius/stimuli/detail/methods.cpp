@@ -252,13 +252,28 @@ std::string experiment_text(const BatchPlan& plan) {
     std::vector<std::string> answers;
     for (const auto& [key, answer] : experiment.answers)
         answers.push_back("\"" + answer + "\" (" + key + ")");
-    return "Each clip was shown " +
-           (experiment.repetitions == 1 ? std::string("once")
-                                        : std::to_string(experiment.repetitions) + " times") +
-           " in random order, after a fixation cross of " + format_number(experiment.fixation_s) +
-           " s. The question was \"" + experiment.question + "\", and the answers were " +
-           joined(answers) + ". Codes of moments lasted whole refreshes of the screen, " +
-           format_number(plan.pulse_ms) + " ms at least.\n";
+    using Method = design::ExperimentOptions::Method;
+    std::string course =
+        "Each clip was shown " +
+        (experiment.repetitions == 1 ? std::string("once")
+                                     : std::to_string(experiment.repetitions) + " times") +
+        " in random order";
+    if (experiment.method != Method::kConstant)
+        course = std::to_string(experiment.trials) + " trials of each threshold were chosen by " +
+                 (experiment.method == Method::kQuest
+                      ? "QUEST (82 % right, slope of the Weibull function 3.5)"
+                      : "a staircase (three right answers down, one wrong answer up)") +
+                 " over " + experiment.over;
+    if (experiment.blocks > 1) course += ", in " + std::to_string(experiment.blocks) + " blocks";
+    if (experiment.practice > 0)
+        course += ", after " + counted(experiment.practice, "practice trial", "practice trials");
+    if (experiment.catch_share > 0)
+        course += ", with " + format_number(100 * experiment.catch_share) + " % of catch trials";
+    return course + ". A fixation cross of " + format_number(experiment.fixation_s) +
+           " s came before each. The question was \"" + experiment.question +
+           "\", and the answers were " + joined(answers) +
+           ". Codes of moments lasted whole refreshes of the screen, " +
+           format_number(plan.triggers.pulse_ms) + " ms at least.\n";
 }
 
 constexpr const char* kShinePaper = R"(@article{willenbockel2010,

@@ -19,12 +19,19 @@ namespace {
 constexpr double kSettled = 0.005, kShown = 0.01;  // accepted differences of shares
 constexpr int kSettledSteps = 10, kShownSteps = 4;
 constexpr double kLeast_mm = 0.1;
+constexpr double kApex = 0.99;         // share of the maximum, as in seen_motion.h
+constexpr double kNear = 0.3;          // accepted difference of times / frame
+constexpr double kShortest_s = 0.001;  // of a rise
+constexpr int kTimeSteps = 12;
 
 animate::RenderJob job_of(const Json& script, const std::filesystem::path& folder,
                           const std::string& quality, const std::string& place,
                           animate::RenderInputs& inputs) {
     animate::RenderRequest request;
-    request.script = folder / place;
+    // Its relative paths start in the folder, so that the place must not look like a path.
+    std::string name = "script of" + place.substr(place.rfind(':') + 1);
+    std::replace(name.begin(), name.end(), '/', ' ');
+    request.script = folder / name;
     request.script_in_memory = JsonCursor::from_json(script, request.script.string());
     request.out = folder / "none.mkv";
     request.quality = quality;
@@ -47,18 +54,81 @@ double MotionMatch::settled_mm(const Json& script, const std::filesystem::path& 
                job_of(*settled, folder, quality_, place, inputs_), session_));
 }
 
-double MotionMatch::shown_mm(const Json& script, const std::filesystem::path& folder,
-                             const std::string& place) {
+double MotionMatch::Course::most_mm() const {
+    return way_mm.empty() ? 0 : *std::max_element(way_mm.begin(), way_mm.end());
+}
+
+double MotionMatch::Course::apex_s() const {
+    const double limit = kApex * most_mm();
+    for (std::size_t frame = 1; frame < way_mm.size(); ++frame)
+        if (way_mm[frame] >= limit) {
+            const double rise = way_mm[frame] - way_mm[frame - 1];
+            const double before = rise > 0 ? (limit - way_mm[frame - 1]) / rise : 1;
+            return (static_cast<double>(frame) - 1 + std::clamp(before, 0.0, 1.0)) / fps;
+        }
+    return 0;
+}
+
+const MotionMatch::Course& MotionMatch::course_of(const Json& script,
+                                                  const std::filesystem::path& folder,
+                                                  const std::string& place) {
     const std::optional<Json> alone = expression_alone(script);
-    if (!alone) return 0;
-    const std::string key = "shown " + json_text(*alone) + folder.string();
-    if (const auto found = known_.find(key); found != known_.end()) return found->second;
-    const animate::LandmarkFrames frames = animate::play_landmarks(
-        job_of(*alone, folder, quality_, place, inputs_), session_, monitor_);
-    double most = 0;
-    for (const Points& frame : frames.positions_mm)
-        most = std::max(most, largest_way_mm({frames.ids, {frames.positions_mm.front(), frame}}));
-    return known_[key] = most;
+    const std::string key = (alone ? json_text(*alone) : std::string()) + folder.string();
+    if (const auto found = courses_.find(key); found != courses_.end()) return found->second;
+    Course course;
+    if (alone) {
+        const animate::RenderJob job = job_of(*alone, folder, quality_, place, inputs_);
+        const animate::LandmarkFrames frames = animate::play_landmarks(job, session_, monitor_);
+        course.fps = job.fps;
+        for (const Points& frame : frames.positions_mm)
+            course.way_mm.push_back(
+                largest_way_mm({frames.ids, {frames.positions_mm.front(), frame}}));
+    }
+    return courses_[key] = std::move(course);
+}
+
+double MotionMatch::time_for(double apex_s, const std::function<Json(double)>& script_at,
+                             const std::filesystem::path& folder, const std::string& place) {
+    const auto course_at = [&](double time_s) -> const Course& {
+        return course_of(script_at(time_s), folder, place);
+    };
+    double low_s = kShortest_s, high_s = apex_s;
+    const Course longest = course_at(high_s);
+    if (longest.most_mm() < kLeast_mm)
+        throw Error(place, "a script with a movement, for match/motion/apex_s",
+                    "one that moves the face by " + format_number(longest.most_mm()) + " mm");
+    // The apex is in the first frame after c. So c is wanted in the middle of the time before that frame.
+    const double frame_s = 1.0 / longest.fps;
+    const double wanted_s = (std::round(apex_s / frame_s) - 0.5) * frame_s;
+    const auto away_s = [&](double time_s) { return course_at(time_s).apex_s() - wanted_s; };
+    double f_low = away_s(low_s), f_high = away_s(high_s);
+    if (std::abs(f_low) <= kNear * frame_s) return low_s;
+    if (f_low > 0)
+        throw Error(place,
+                    "an apex_s of match/motion of " +
+                        format_number(std::ceil(1000 * (f_low + wanted_s + frame_s / 2)) / 1000) +
+                        " s or later",
+                    format_number(apex_s));
+    if (f_high < 0)
+        throw Error(place,
+                    "a script whose movement is at its apex as late as apex_s of match/motion",
+                    "an apex at " + format_number(std::floor(1000 * (f_high + wanted_s)) / 1000) +
+                        " s for a rise of " + format_number(high_s) + " s");
+    double time_s = high_s;
+    int last_side = 0;
+    for (int step = 0; step < kTimeSteps; ++step) {
+        time_s = rounded(low_s + (high_s - low_s) * -f_low / (f_high - f_low));
+        const double f = away_s(time_s);
+        if (std::abs(f) <= kNear * frame_s) return time_s;
+        const int side = f < 0 ? -1 : 1;
+        (f < 0 ? low_s : high_s) = time_s;
+        (f < 0 ? f_low : f_high) = f;
+        if (side == last_side) (f < 0 ? f_high : f_low) /= 2;
+        last_side = side;
+    }
+    throw Error(place, "a rise whose apex can be moved to " + format_number(apex_s) + " s",
+                "none after " + std::to_string(kTimeSteps) + " tries; the last was " +
+                    format_number(time_s) + " s");
 }
 
 double MotionMatch::intensity_for(double share, const std::function<Json(double)>& script_at,
@@ -85,7 +155,7 @@ double MotionMatch::intensity_for(double share, const std::function<Json(double)
     if (1 - share <= kSettled) k = 1;
 
     // Its course
-    const double most = shown_mm(script_at(1), folder, place) / full_mm;
+    const double most = course_of(script_at(1), folder, place).most_mm() / full_mm;
     if (most < share - 2 * kShown)
         throw Error(place,
                     "a share of match/motion of at most " +
@@ -93,7 +163,7 @@ double MotionMatch::intensity_for(double share, const std::function<Json(double)
                     format_number(share));
     double before_k = 1, before = most;
     for (int step = 0; step < kShownSteps; ++step) {
-        const double now = shown_mm(script_at(k), folder, place) / full_mm;
+        const double now = course_of(script_at(k), folder, place).most_mm() / full_mm;
         if (std::abs(now - share) <= kShown || !(now > 0)) break;
         double slope = 1;
         if (k != before_k && now != before) slope = std::log(before / now) / std::log(before_k / k);

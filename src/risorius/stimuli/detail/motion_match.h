@@ -6,6 +6,9 @@
 ///   p(k)     the same for the course of the script, which is less when nothing is held
 ///
 /// First s(k) / s(1) = share is solved by regula falsi with the Illinois rule, then p(k) / s(1) = share by secants in log p over log k.
+///
+/// It also finds the duration T of a rise at which the movement is at its apex in a given frame: c(T), the time at which s of the course
+/// passes 99 % of its maximum, is solved by regula falsi for the middle of the time before that frame.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "risorius/animate/render_inputs.h"
 #include "risorius/animate/render_session.h"
@@ -32,17 +36,30 @@ class MotionMatch {
     double intensity_for(double share, const std::function<Json(double)>& script_at,
                          const std::filesystem::path& folder, const std::string& place);
 
+    /// Returns the duration, s, to 1e-4. `script_at`: the script at a duration. Throws Error naming `place` when the apex cannot be in the
+    /// frame nearest to `apex_s`.
+    double time_for(double apex_s, const std::function<Json(double)>& script_at,
+                    const std::filesystem::path& folder, const std::string& place);
+
   private:
+    /// What landmarks do in a course.
+    struct Course {
+        std::vector<double> way_mm;  ///< s of each frame
+        int fps = 60;
+        double most_mm() const;
+        double apex_s() const;  ///< when s passes 99 % of its maximum, between frames
+    };
+    const Course& course_of(const Json& script, const std::filesystem::path& folder,
+                            const std::string& place);
     double settled_mm(const Json& script, const std::filesystem::path& folder,
                       const std::string& place);
-    double shown_mm(const Json& script, const std::filesystem::path& folder,
-                    const std::string& place);
 
     std::string quality_;
     animate::RenderInputs& inputs_;
     ProgressMonitor monitor_;
     animate::RenderSession session_;
     std::map<std::string, double> known_;
+    std::map<std::string, Course> courses_;
 };
 
 }  // namespace risorius::stimuli

@@ -9,6 +9,7 @@
 #include "risorius/core/error.h"
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
+#include "risorius/design/design.h"
 #include "risorius/design/table.h"
 #include "risorius/stimuli/detail/catalogue.h"
 
@@ -113,11 +114,6 @@ std::vector<std::vector<double>> scale_table(const std::vector<Rating>& ratings,
 
 }  // namespace
 
-const std::vector<std::string>& rating_scales() {
-    static const std::vector<std::string> kNames{"valence", "arousal", "intensity", "naturalness"};
-    return kNames;
-}
-
 double Share::low() const { return wilson(*this, -1); }
 double Share::high() const { return wilson(*this, 1); }
 
@@ -131,7 +127,8 @@ std::vector<Rating> read_ratings(const std::filesystem::path& file,
         rating.clip = rating_cell(row, {"stimulus_id", "stim_id"});
         rating.answer = rating_cell(row, {"answer", "response"});
         for (const design::Given& cell : row)
-            if (std::count(rating_scales().begin(), rating_scales().end(), cell.name) > 0 &&
+            if (std::count(design::rating_scales().begin(), design::rating_scales().end(),
+                           cell.name) > 0 &&
                 !rating_cell(row, {cell.name}).empty())
                 rating.scales[cell.name] = cell.value.number({-1e6, 1e6});
         if (rating.clip.starts_with("stim-")) rating.clip.erase(0, 5);
@@ -176,7 +173,7 @@ Norms norms_of(const std::vector<Rating>& ratings,
         for (const auto& [scale, sum] : scales[name]) clip.means[scale] = sum.first / sum.second;
     }
     out.kappa = fleiss_kappa(counts);
-    for (const std::string& scale : rating_scales())
+    for (const std::string& scale : design::rating_scales())
         if (const auto value = intraclass(scale_table(ratings, scale))) out.icc[scale] = *value;
     return out;
 }

@@ -27,9 +27,6 @@ struct Rating {
         scales;  ///< of valence, arousal, intensity and naturalness, those that were given
 };
 
-/// The scales that ratings may have.
-const std::vector<std::string>& rating_scales();
-
 /// Reads ratings: columns participant, stimulus_id (or stim_id), answer (or response), and scales. Throws Error for clips outside of
 /// `clips`.
 std::vector<Rating> read_ratings(const std::filesystem::path& file,

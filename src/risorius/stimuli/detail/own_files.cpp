@@ -13,6 +13,7 @@
 #include "risorius/core/json_text.h"
 #include "risorius/core/read_file.h"
 #include "risorius/core/sha256.h"
+#include "risorius/stimuli/detail/clip.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
 
 namespace risorius::stimuli {
@@ -55,7 +56,8 @@ constexpr std::array kFilesOfSet{"dataset_description.json",
                                  "experiment/conditions.csv",
                                  "experiment/settings.json",
                                  "experiment/experiment.py",
-                                 "experiment/index.html"};
+                                 "experiment/index.html",
+                                 "experiment/rating.html"};
 
 /// Whether it is a regular file that is reached without links.
 bool is_plain_file(const fs::path& folder, const fs::path& relative) {
@@ -73,15 +75,28 @@ bool has_bytes(const fs::path& folder, const fs::path& relative, const std::stri
     return is_plain_file(folder, relative) && sha256_of_file(folder / relative) == sha256;
 }
 
-/// The names of the files in a folder below that is no link, sorted.
-std::vector<std::string> names_in(const fs::path& folder, const char* below) {
-    std::vector<std::string> names;
+/// The files in a folder below that is no link, and in its folders of clips, as paths from there, sorted.
+std::vector<fs::path> files_in(const fs::path& folder, const fs::path& below) {
+    std::vector<fs::path> files;
     std::error_code ignored;
-    if (!fs::is_directory(fs::symlink_status(folder / below, ignored))) return names;
-    for (const auto& entry : fs::directory_iterator(folder / below, ignored))
-        names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
+    if (!fs::is_directory(fs::symlink_status(folder / below, ignored))) return files;
+    for (const auto& entry : fs::directory_iterator(folder / below, ignored)) {
+        const std::string name = entry.path().filename().string();
+        const bool of_clips = is_folder_of_clips(name) && !below.has_parent_path();
+        if (!of_clips || !fs::is_directory(entry.symlink_status(ignored))) {
+            files.push_back(name);
+            continue;
+        }
+        for (const fs::path& file : files_in(folder, below / name)) files.push_back(name / file);
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+/// Whether a file below "stimuli" has the name of a sidecar.
+bool is_named_as_sidecar(const fs::path& file) {
+    const std::string name = file.filename().string();
+    return name.starts_with("stim-") && name.ends_with(".json");
 }
 
 /// The object in a JSON file; none when it holds anything else.
@@ -110,35 +125,37 @@ std::string clip_of(const Json& record, const std::string& file_name) {
     return text_at(record, "format") == "risorius-clip" && named ? clip : "";
 }
 
-/// Whether a clip can have this file.
-bool belongs_to(const std::string& clip, const std::string& file) {
-    const std::string stem = "stimuli/stim-" + clip + "_";
-    return file == "overview/" + clip + ".png" || file == "code/scripts/" + clip + ".json" ||
-           file == "code/scripts/" + clip + "_lower.json" ||
-           file == "aois/" + clip + "_tobii.json" || file == "aois/" + clip + ".ias" ||
+/// Whether a clip can have this file. `below`: "", or the folder of its clips, "b012/".
+bool belongs_to(const std::string& clip, const std::string& below, const std::string& file) {
+    const std::string stem = "stimuli/" + below + "stim-" + clip + "_", name = below + clip;
+    return file == "overview/" + name + ".png" || file == "code/scripts/" + name + ".json" ||
+           file == "code/scripts/" + name + "_lower.json" ||
+           file == "aois/" + name + "_tobii.json" || file == "aois/" + name + ".ias" ||
            (file.starts_with(stem) && file.find('/', stem.size()) == std::string::npos);
 }
 
 void add_clips(const fs::path& folder, std::set<fs::path>& files) {
-    for (const std::string& name : names_in(folder, "stimuli")) {
-        if (!name.starts_with("stim-") || !name.ends_with(".json")) continue;
-        const fs::path sidecar = fs::path("stimuli") / name;
+    for (const fs::path& file : files_in(folder, "stimuli")) {
+        if (!is_named_as_sidecar(file)) continue;
+        const fs::path sidecar = "stimuli" / file;
+        const std::string below =
+            file.has_parent_path() ? file.parent_path().generic_string() + "/" : "";
         const std::optional<Json> record = object_of(folder, sidecar);
-        const std::string clip = record ? clip_of(*record, name) : "";
+        const std::string clip = record ? clip_of(*record, file.filename().string()) : "";
         if (clip.empty() || !record->contains("files") || !record->at("files").is_object())
             continue;
         files.insert(sidecar);
-        for (const auto& [file, sha256] : record->at("files").items())
-            if (sha256.is_string() && belongs_to(clip, file) &&
-                has_bytes(folder, file, sha256.get<std::string>()))
-                files.insert(file);
+        for (const auto& [its, sha256] : record->at("files").items())
+            if (sha256.is_string() && belongs_to(clip, below, its) &&
+                has_bytes(folder, its, sha256.get<std::string>()))
+                files.insert(its);
     }
 }
 
 void add_renders(const fs::path& folder, std::set<fs::path>& files) {
     for (const char* below : kIntermediateFolders)
-        for (const std::string& name : names_in(folder, below)) {
-            if (!name.ends_with(".json")) continue;
+        for (const fs::path& name : files_in(folder, below)) {
+            if (name.extension() != ".json") continue;
             const fs::path file = fs::path(below) / name;
             const std::optional<Json> record = object_of(folder, file);
             if (!record || text_at(*record, "film_sha256").empty()) continue;
@@ -151,6 +168,13 @@ void add_renders(const fs::path& folder, std::set<fs::path>& files) {
         }
 }
 
+/// Whether it is a page of the overview of a large set, "overview/b012/index.html".
+bool is_page_of_clips(const fs::path& file) {
+    return file.filename() == "index.html" &&
+           is_folder_of_clips(file.parent_path().filename().string()) &&
+           file.parent_path().parent_path() == "overview";
+}
+
 void add_listed(const fs::path& folder, std::set<fs::path>& files) {
     if (!is_plain_file(folder, "SHA256SUMS")) return;
     std::istringstream sums(read_file(folder / "SHA256SUMS", kSums));
@@ -159,7 +183,8 @@ void add_listed(const fs::path& folder, std::set<fs::path>& files) {
         if (gap == std::string::npos) continue;
         const std::string file = line.substr(gap + 2);
         const std::string beside = file.ends_with(".new") ? file.substr(0, file.size() - 4) : file;
-        if (std::find(kFilesOfSet.begin(), kFilesOfSet.end(), beside) != kFilesOfSet.end() &&
+        if ((std::find(kFilesOfSet.begin(), kFilesOfSet.end(), beside) != kFilesOfSet.end() ||
+             is_page_of_clips(beside)) &&
             has_bytes(folder, file, line.substr(0, gap)))
             files.insert(file);
     }
@@ -184,14 +209,14 @@ bool has_job_script(const fs::path& folder) {
 
 /// Whether `batch` has made a clip, or rendered one.
 bool has_clip(const fs::path& folder) {
-    for (const std::string& name : names_in(folder, "stimuli"))
-        if (name.starts_with("stim-") && name.ends_with(".json"))
-            if (const auto record = object_of(folder, fs::path("stimuli") / name);
-                record && !clip_of(*record, name).empty())
+    for (const fs::path& file : files_in(folder, "stimuli"))
+        if (is_named_as_sidecar(file))
+            if (const auto record = object_of(folder, "stimuli" / file);
+                record && !clip_of(*record, file.filename().string()).empty())
                 return true;
     for (const char* below : kIntermediateFolders)
-        for (const std::string& name : names_in(folder, below))
-            if (name.ends_with(".json"))
+        for (const fs::path& name : files_in(folder, below))
+            if (name.extension() == ".json")
                 if (const auto record = object_of(folder, fs::path(below) / name);
                     record && !text_at(*record, "film_sha256").empty())
                     return true;

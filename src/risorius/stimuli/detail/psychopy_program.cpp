@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: MIT
-// The text of experiment.py.
+// The text of experiment.py: what it draws with, listens to and writes. What follows is in psychopy_course.cpp.
 #include "risorius/stimuli/detail/experiment_programs.h"
 
 namespace risorius::stimuli {
 
 namespace {
 
-const char* const kProgram = R"py(#!/usr/bin/env python3
+const char* const kDevices = R"py(#!/usr/bin/env python3
 """An experiment with a set of clips, for PsychoPy: an example to start from.
 
     python experiment.py --participant 7
 
 Every clip is decoded before its fixation cross is shown, and its frames are flipped one by one, each for a whole number of
-refreshes of the screen, so that no player decides when a frame is seen. A picture is a clip of one frame. ../triggers.tsv says which codes go out with which
-frame. A code stays on the line for whole refreshes, pulse_ms of settings.json at least, and is then taken off. A square in
-the lower left corner is white exactly while a code is on the line, and black at all other times, for a photodiode.
+refreshes of the screen, so that no player decides when a frame is seen. A picture is a clip of one frame. ../triggers.tsv says
+which codes go out with which frame. A code stays on the line for whole refreshes, pulse_ms of settings.json at least, and is
+then taken off. A square in the lower left corner is white exactly while a code is on the line, and black at all other times,
+for a photodiode.
 
 It reads settings.json and conditions.csv beside it. Every run writes new files, row by row, and never an old one:
-data/sub-P_task-T_run-R_TIME.csv, and ..._events.tsv with ..._events.json as BIDS has them, onsets from the first key on.
+data/sub-P_task-T_run-R_TIME.csv, and ..._events.tsv with ..._events.json as BIDS has them. Onsets count from the key, or from
+the pulse of the scanner, that began the run.
 """
 import argparse
 import csv
@@ -35,14 +37,22 @@ from psychopy.hardware import keyboard
 
 HERE = Path(__file__).resolve().parent
 SIDE_PX = 64
+CATCH_KEY, CATCH_S, CATCH_WAIT_S = "space", 0.2, 1.0
+FEEDBACK_S = 0.8
+
+# Codes that belong to no clip. 1 to 5 and 10 to 250 are those of ../triggers.tsv.
+RESPONSE, BLOCK, PRACTICE, CATCH, PAUSE, SCANNER = (
+    (6, "response"), (251, "block"), (252, "practice"), (253, "catch"), (254, "pause"), (255, "scanner"),
+)
 
 
 class Triggers:
-    """Codes to a serial port, a parallel port (an address like 0x0378), or nowhere; kept for the data in any case."""
+    """Codes to a serial port, a parallel port (an address like 0x0378), or nowhere, and markers to the Lab Streaming Layer if
+    a name is given for the stream. They are kept for the data in any case."""
 
-    def __init__(self, port):
-        self.serial, self.parallel = None, None
-        self.sent = []
+    def __init__(self, port, stream):
+        self.serial, self.parallel, self.outlet = None, None, None
+        self.sent, self.trial = [], {}
         if port and port.lower().startswith("0x"):
             from psychopy import parallel
 
@@ -52,12 +62,19 @@ class Triggers:
             import serial
 
             self.serial = serial.Serial(port, 115200)
+        if stream:
+            import pylsl
 
-    def send(self, code, clock):
+            self.now = pylsl.local_clock
+            self.outlet = pylsl.StreamOutlet(pylsl.StreamInfo(stream, "Markers", 1, 0, "string", f"risorius-{stream}"))
+
+    def send(self, code, event, clock):
         if self.parallel:
             self.parallel.setData(code)
         elif self.serial:
             self.serial.write(bytes([code]))
+        if self.outlet and code:
+            self.outlet.push_sample([json.dumps({"code": code, "event": event, **self.trial})], self.now())
         self.sent.append((code, clock.getTime()))
 
 
@@ -65,7 +82,7 @@ class Screen:
     """Flips with the square of the photodiode, and takes every code off the line after its pulse."""
 
     def __init__(self, window, rate_hz, triggers, clock, pulse_ms):
-        self.window, self.triggers, self.clock = window, triggers, clock
+        self.window, self.rate_hz, self.triggers, self.clock = window, rate_hz, triggers, clock
         self.pulse = max(1, math.ceil(pulse_ms * rate_hz / 1000 - 1e-3))
         self.left = 0
         self.square = visual.Rect(
@@ -73,19 +90,83 @@ class Screen:
             pos=((SIDE_PX - window.size[0]) / 2, (SIDE_PX - window.size[1]) / 2),
         )
 
-    def flip(self, drawn, code=0):
-        """Shows what is drawn for one refresh. A code goes out with it."""
+    def flip(self, drawn, marker=None):
+        """Shows what is drawn for one refresh. A marker, a code and what it stands for, goes out with it."""
         for one in drawn:
             one.draw()
         was_on = self.left > 0
-        self.left = self.pulse if code else max(0, self.left - 1)
-        if code:
-            self.window.callOnFlip(self.triggers.send, code, self.clock)
+        self.left = self.pulse if marker else max(0, self.left - 1)
+        if marker:
+            self.window.callOnFlip(self.triggers.send, *marker, self.clock)
         elif was_on and self.left == 0:
-            self.window.callOnFlip(self.triggers.send, 0, self.clock)
+            self.window.callOnFlip(self.triggers.send, 0, "", self.clock)
         self.square.fillColor = "white" if self.left else "black"
         self.square.draw()
         self.window.flip()
+
+    def mark(self, drawn, marker):
+        """Shows what is drawn for as long as the code is on the line."""
+        self.flip(drawn, marker)
+        while self.left:
+            self.flip(drawn)
+
+    def stay(self, drawn, seconds):
+        for _ in range(round(seconds * self.rate_hz)):
+            self.flip(drawn)
+
+
+class Keys:
+    """The keyboard, and the time of the run. Pulses of a scanner come as a key too: they are put aside, with their times."""
+
+    def __init__(self, pulse):
+        self.board = keyboard.Keyboard(clock=core.Clock())
+        self.pulse, self.pulses_s = [pulse] if pulse else [], []
+        self.seen = set()
+        self.run_clock, self.zero_s = core.Clock(), 0.0
+
+    def run_s(self):
+        return self.run_clock.getTime() - self.zero_s
+
+    def begin_run(self):
+        self.zero_s = self.run_clock.getTime()
+        self.pulses_s = []
+
+    def wait_for_scanner(self, dummies):
+        """The run begins with the pulse after the dummies."""
+        while len(self.pulses_s) <= dummies:
+            self.read([])
+            core.wait(0.001)
+        first_s = self.pulses_s[dummies]
+        self.zero_s += first_s
+        self.pulses_s = [at - first_s for at in self.pulses_s[dummies:]]
+
+    def restart(self):
+        """Counts the times of keys from now on, and forgets what was pressed before."""
+        self.read(None)
+        self.board.clock.reset()
+
+    def read(self, names):
+        """The keys of these names, or all, that were pressed since they were read. A key that is still down and one that is up
+        again are both pressed; PsychoPy tells of them apart, and of some of them twice."""
+        asked = None if names is None else [*names, *self.pulse]
+        if asked == []:
+            return []
+        found = [key for up in (False, True) for key in self.board.getKeys(asked, waitRelease=up)]
+        new = [key for key in found if (key.name, key.tDown) not in self.seen]
+        self.seen.update((key.name, key.tDown) for key in new)
+        since_s = self.run_s() - self.board.clock.getTime()
+        self.pulses_s += [since_s + key.rt for key in new if key.name in self.pulse]
+        return [key for key in new if key.name not in self.pulse]
+
+    def wait(self, names=None, limit_s=float("inf")):
+        """Waits for one of these keys, or for any. Returns none after the limit."""
+        self.read(None)
+        begin_s = self.board.clock.getTime()
+        while self.board.clock.getTime() - begin_s < limit_s:
+            if found := self.read(names):
+                return found
+            core.wait(0.001)
+        return []
 
 
 def read_conditions():
@@ -97,12 +178,12 @@ def read_conditions():
 
 
 def read_codes():
-    """The codes of every clip: stim_id -> frame -> code. Moments that share a frame have one code."""
+    """The markers of every clip: stim_id -> frame -> (code, event). Moments that share a frame have one code."""
     codes = {}
     with open(HERE / "../triggers.tsv", newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file, delimiter="\t"):
             if row.get("merged_into", "n/a") == "n/a":
-                codes.setdefault(row["stim_id"], {})[int(row["frame"])] = int(row["code"])
+                codes.setdefault(row["stim_id"], {})[int(row["frame"])] = (int(row["code"]), row["event"])
     return codes
 
 
@@ -143,25 +224,6 @@ def duration_s(clip):
     return float(clip["shown_s"]) if "shown_s" in clip else clip["frames"] / clip["fps"]
 
 
-def show(screen, frames, codes, refreshes, heard, began, keys):
-    """Shows a clip, and the blank screen after it while the last code is on the line. Returns a key pressed meanwhile."""
-    window = screen.window
-    for number, picture in enumerate(frames):
-        for refresh in range(refreshes):
-            if number == 0 and refresh == 0:
-                window.callOnFlip(screen.clock.reset)
-                window.callOnFlip(began)
-                if heard:
-                    heard.play(when=window.getFutureFlipTime(clock="ptb"))
-            screen.flip([picture], codes.get(number, 0) if refresh == 0 else 0)
-    screen.flip([], codes.get(len(frames), 0))
-    while screen.left:
-        screen.flip([])
-    if heard:
-        heard.stop()
-    return keys()
-
-
 class Answers:
     """The file of answers and the events of BIDS. Both are new files, and each row is on the disk before the next trial."""
 
@@ -171,27 +233,30 @@ class Answers:
         participant = "".join(letter for letter in options.participant if letter.isascii() and letter.isalnum()) or "0"
         folder = HERE / "data"
         folder.mkdir(exist_ok=True)
-        stem = f"sub-{participant}_task-{task}_run-{options.run}_{time}"
-        self.file = open(folder / f"{stem}.csv", "x", newline="", encoding="utf-8")
-        self.events = open(folder / f"{stem}_events.tsv", "x", newline="", encoding="utf-8")
+        self.stem = str(folder / f"sub-{participant}_task-{task}_run-{options.run}_{time}")
+        self.file = open(f"{self.stem}.csv", "x", newline="", encoding="utf-8")
+        self.events = open(f"{self.stem}_events.tsv", "x", newline="", encoding="utf-8")
         self.out = csv.DictWriter(self.file, columns)
         self.out.writeheader()
         names = {
-            "onset": "First frame of the clip, from the key that began the run, s",
+            "onset": "First frame of the clip, from the key or the pulse that began the run, s",
             "duration": "Of the clip, s",
-            "trial_type": "Set, and control if it is one",
+            "trial_type": "Set, and control if it is one; pulse: of the scanner",
             "response_time": "From the first frame of the clip, s",
             "stimulus_id": "The clip in stimuli.tsv",
+            "stim_file": "Its file in stimuli/",
             "trial": "Number of the trial, from 0",
+            "block": "Number of the block, from 1; 0: practice",
+            "kind": "trial, practice or catch",
             "answer": "Answer that the key stands for",
             "correct": "1 if it is the right one",
             "dropped": "Refreshes that the screen missed during the clip",
         }
-        self.bids = csv.DictWriter(self.events, list(names), delimiter="\t")
+        self.bids = csv.DictWriter(self.events, list(names), delimiter="\t", restval="n/a")
         self.bids.writeheader()
         about = {name: {"Description": text} for name, text in names.items()}
         about["StimulusPresentation"] = software
-        with open(folder / f"{stem}_events.json", "x", encoding="utf-8") as file:
+        with open(f"{self.stem}_events.json", "x", encoding="utf-8") as file:
             file.write(json.dumps(about, indent=2))
         self.keep()
 
@@ -200,143 +265,26 @@ class Answers:
             file.flush()
             os.fsync(file.fileno())
 
-    def add(self, row, event):
+    def add(self, row, event, pulses_s):
+        """One trial, and the pulses of the scanner that came meanwhile, in the order of time."""
         self.out.writerow(row)
-        self.bids.writerow({name: "n/a" if value == "" else value for name, value in event.items()})
+        events = [{"onset": f"{at:.4f}", "duration": "0", "trial_type": "pulse"} for at in pulses_s]
+        events.append({name: "n/a" if value == "" else value for name, value in event.items()})
+        self.bids.writerows(sorted(events, key=lambda one: float(one["onset"])))
         self.keep()
 
-
-def run_trial(screen, settings, clip, codes, refreshes, board, texts, run_clock):
-    """One trial. Returns what it adds to the row; none when the participant presses escape."""
-    window, triggers = screen.window, screen.triggers
-    screen.flip([])
-    frames, heard = load_frames(window, clip), load_sound(clip)
-    if board.getKeys(["escape"], waitRelease=False):
-        return None
-    fixation_clock, began = core.Clock(), {}
-    for refresh in range(round(settings["fixation_s"] * screen.rate_hz)):
-        if refresh == 0:
-            window.callOnFlip(fixation_clock.reset)
-        screen.flip([texts["fixation"]])
-    triggers.sent.clear()
-    answer_keys = [one["key"] for one in settings["answers"]]
-    window.frameIntervals = []
-    window.recordFrameIntervals = True
-
-    def begin():
-        began["fixation_s"], began["onset_s"] = fixation_clock.getTime(), run_clock.getTime()
-        board.clock.reset()
-        board.clearEvents()
-
-    def keys_meanwhile():
-        window.recordFrameIntervals = False
-        asked = answer_keys if settings.get("answer_during") else []
-        return board.getKeys([*asked, "escape"], waitRelease=False)
-
-    pressed = show(screen, frames, codes, refreshes, heard, begin, keys_meanwhile)
-    intervals = window.frameIntervals
-    if not pressed:
-        question_s = {}
-        window.callOnFlip(lambda: question_s.update(at=board.clock.getTime()))
-        board.clearEvents()
-        screen.flip([texts["question"]])
-        pressed = board.waitKeys(keyList=[*answer_keys, "escape"], waitRelease=False)
-        since_question = pressed[0].rt - question_s["at"]
-    else:
-        since_question = None
-    key = pressed[0].name
-    if key == "escape":
-        return None
-    period = 1 / screen.rate_hz
-    late = max([interval - period for interval in intervals], default=0)
-    return {
-        "key": key,
-        "answer": next(one["answer"] for one in settings["answers"] if one["key"] == key),
-        "correct": int(key == clip["correct_key"]) if clip["correct_key"] else "",
-        "reaction_s": "" if since_question is None else f"{since_question:.4f}",
-        "response_time": f"{pressed[0].rt:.4f}",
-        "onset_s": f"{began['onset_s']:.4f}",
-        "fixation_s": f"{began['fixation_s']:.4f}" if settings["fixation_s"] else "0",
-        "codes": " ".join(f"{code}@{time:.4f}" for code, time in triggers.sent),
-        "dropped_refreshes": sum(interval > 1.5 * period for interval in intervals),
-        "late_ms_max": f"{1000 * late:.2f}",
-    }
-
-
-ADDED = ["key", "answer", "correct", "reaction_s", "response_time", "onset_s", "fixation_s", "codes", "dropped_refreshes",
-         "late_ms_max"]
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument('--participant', default="0")
-    parser.add_argument('--run', type=int, default=1, help="its number, for the names of the files")
-    parser.add_argument('--seed', type=int, help="of the order; by default the participant's name")
-    parser.add_argument('--trigger-port', default="", help="a serial port, or the address of a parallel port as 0x0378")
-    parser.add_argument('--window', action="store_true", help="not the whole screen")
-    options = parser.parse_args()
-
-    settings = json.loads((HERE / "settings.json").read_text(encoding="utf-8"))
-    codes = read_codes()
-    trials = [dict(row) for _ in range(settings["repetitions"]) for row in read_conditions()]
-    random.Random(options.participant if options.seed is None else options.seed).shuffle(trials)
-
-    # All checks come before the first file is opened.
-    window = visual.Window(fullscr=not options.window, units="pix", color=settings["background"], colorSpace="hex")
-    window.mouseVisible = False
-    rate_hz = window.getActualFrameRate(nIdentical=10, nMaxFrames=100, nWarmUpFrames=10, threshold=1)
-    if rate_hz is None:
-        raise RuntimeError("the screen's refresh rate cannot be measured")
-    refreshes = {clip["stim_id"]: refreshes_of(clip, rate_hz) for clip in trials}
-    triggers, run_clock = Triggers(options.trigger_port), core.Clock()
-    screen = Screen(window, rate_hz, triggers, core.Clock(), settings["pulse_ms"])
-    screen.rate_hz = rate_hz
-    for name, its in codes.items():
-        frames = sorted(its)
-        if name in refreshes and any((b - a) * refreshes[name] <= screen.pulse for a, b in zip(frames, frames[1:])):
-            print(f"note: {name}: two of its codes follow one another without a zero between them")
-
-    choices = "    ".join(f"{one['key']} = {one['answer']}" for one in settings["answers"])
-    texts = {
-        "question": visual.TextStim(window, text=f"{settings['question']}\n\n{choices}"),
-        "fixation": visual.TextStim(window, text="+", height=48),
-    }
-    board = keyboard.Keyboard(clock=core.Clock())
-    screen.flip([visual.TextStim(window, text=f"{settings['question']}\n\n{choices}\n\nPress any key to begin.")])
-    board.waitKeys(waitRelease=False)
-    run_clock.reset()
-
-    software = {"SoftwareName": "PsychoPy, with a program by Risorius", "OperatingSystem": os.sys.platform,
-                "RefreshRate": rate_hz}
-    answers = Answers(options, settings, ["participant", "trial", *trials[0], *ADDED], software)
-    for number, row in enumerate(trials):
-        clip = {**row, "file": str(HERE / settings["clips"] / row["stim_file"])}
-        added = run_trial(
-            screen, settings, clip, codes[clip["stim_id"]], refreshes[clip["stim_id"]], board, texts, run_clock
-        )
-        if added is None:
-            break
-        kind = " ".join(text for text in (clip["set"], clip["control"]) if text)
-        answers.add(
-            {**row, "participant": options.participant, "trial": number, **added},
-            {
-                "onset": added["onset_s"], "duration": f"{duration_s(clip):.4f}", "trial_type": kind,
-                "response_time": added["response_time"], "stimulus_id": f"stim-{clip['stim_id']}", "trial": number,
-                "answer": added["answer"], "correct": added["correct"], "dropped": added["dropped_refreshes"],
-            },
-        )
-    window.close()
-    core.quit()
-
-
-if __name__ == "__main__":
-    main()
+    def thresholds(self, rows):
+        if rows:
+            with open(f"{self.stem}_thresholds.csv", "x", newline="", encoding="utf-8") as file:
+                out = csv.DictWriter(file, list(rows[0]))
+                out.writeheader()
+                out.writerows(rows)
 )py";
 
 }  // namespace
 
 const std::string& psychopy_program() {
-    static const std::string text = kProgram;
+    static const std::string text = std::string(kDevices) + psychopy_course();
     return text;
 }
 

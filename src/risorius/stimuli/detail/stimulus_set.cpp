@@ -73,24 +73,13 @@ constexpr const char* kAnnotations =
 constexpr const char* kAoiAnnotation =
     "annot-aois\tA row for each frame and area of interest: its polygon in the picture\n";
 
-std::string overview(const std::string& name, const std::vector<Json>& records,
-                     const std::vector<ClipPlan>& clips, const fs::path& folder) {
+/// The pictures of some clips. `from_here`: the way from the page to the folder of the set.
+void write_figures(const std::vector<Json>& records, const std::vector<ClipPlan>& clips,
+                   std::size_t first, std::size_t end, const std::string& from_here,
+                   const fs::path& folder, report::HtmlWriter& html) {
     const bool pictures = clips.front().clips.pictures();
-    report::HtmlWriter html;
-    html.element("h1", name);
-    html.element("p",
-                 std::to_string(records.size()) + (pictures ? " pictures" : " clips") +
-                     ". Faces are synthetic. Values, frames and times: "
-                     "stimuli/stimuli.tsv; triggers: triggers.tsv; ground truth of every frame "
-                     "beside each clip.");
-    if (clips.front().luminance) {
-        html.element("h2", "Luminance");
-        html.element("p", luminance_text(records));
-        for (const char* chart : {"luminance/mean.svg", "luminance/sd.svg"})
-            html.single("img", {{"src", chart}, {"alt", "Every clip before and after"}});
-    }
     std::string set;
-    for (std::size_t i = 0; i < records.size(); ++i) {
+    for (std::size_t i = first; i < end; ++i) {
         const Json& one = records[i];
         if (one.at("set").get<std::string>() != set) {
             set = one.at("set").get<std::string>();
@@ -98,10 +87,10 @@ std::string overview(const std::string& name, const std::vector<Json>& records,
         }
         html.open("figure");
         const ClipFiles files = clip_files(clips[i]);
-        html.open("a", {{"href", files.video.generic_string()},
+        html.open("a", {{"href", from_here + files.video.generic_string()},
                         {"style", "position: relative; display: inline-block"}});
         html.single("img",
-                    {{"src", files.strip.generic_string()},
+                    {{"src", from_here + files.strip.generic_string()},
                      {"loading", "lazy"},
                      {"alt", (pictures ? "" : "Five frames of ") + clips[i].condition.clip}});
         if (clips[i].has_aois()) draw_aois(text_of_file(folder / files.aois), clips[i], html);
@@ -115,7 +104,44 @@ std::string overview(const std::string& name, const std::vector<Json>& records,
         html.element("figcaption", said);
         html.close();
     }
-    return report::html_page(name, html);
+}
+
+/// Writes the page of a set, and for a large one a page for each folder of clips.
+void write_overview(const BatchPlan& plan, const std::vector<Json>& records, const fs::path& folder,
+                    const WriteFile& write) {
+    const std::vector<ClipPlan>& clips = plan.clips;
+    const bool pictures = clips.front().clips.pictures();
+    report::HtmlWriter html;
+    html.element("h1", plan.name);
+    html.element("p",
+                 std::to_string(records.size()) + (pictures ? " pictures" : " clips") +
+                     ". Faces are synthetic. Values, frames and times: "
+                     "stimuli/stimuli.tsv; triggers: triggers.tsv; ground truth of every frame "
+                     "beside each clip.");
+    if (clips.front().luminance) {
+        html.element("h2", "Luminance");
+        html.element("p", luminance_text(records));
+        for (const char* chart : {"luminance/mean.svg", "luminance/sd.svg"})
+            html.single("img", {{"src", chart}, {"alt", "Every clip before and after"}});
+    }
+    if (clips.front().folder.empty()) {
+        write_figures(records, clips, 0, clips.size(), "", folder, html);
+        write("index.html", report::html_page(plan.name, html));
+        return;
+    }
+    for (std::size_t first = 0; first < clips.size(); first += kClipsPerFolder) {
+        const std::size_t end = std::min(first + kClipsPerFolder, clips.size());
+        const std::string page = "overview/" + clips[first].folder + "index.html",
+                          title =
+                              clips[first].condition.clip + " to " + clips[end - 1].condition.clip;
+        html.open("p").element("a", title, {{"href", page}}).close();
+        report::HtmlWriter figures;
+        figures.element("h1", plan.name);
+        figures.open("p").element("a", "All clips", {{"href", "../../index.html"}}).close();
+        write_figures(records, clips, first, end, "../../", folder, figures);
+        write(page, report::html_page(plan.name + ", " + title, figures));
+    }
+    write("index.html", report::html_page(plan.name, html));
 }
 
 /// Removes the files that `batch` has written for an earlier design and that this set does not contain. Other files stay.
@@ -129,9 +155,16 @@ void remove_former_files(const fs::path& folder, const std::set<fs::path>& kept,
 void remove_empty_folders(const fs::path& folder) {
     std::error_code ignored;
     for (const char* below : {"code/scripts", "overview", "luminance", "experiment", "norms",
-                              "intermediate", "takes", "stimuli"})
-        if (!fs::is_symlink(fs::symlink_status(folder / below, ignored)))
-            fs::remove(folder / below, ignored);  // fails for one that is not empty, as intended
+                              "intermediate", "takes", "stimuli", "aois"}) {
+        if (!fs::is_directory(fs::symlink_status(folder / below, ignored))) continue;
+        std::vector<fs::path> inside;
+        for (const auto& entry : fs::directory_iterator(folder / below, ignored))
+            if (is_folder_of_clips(entry.path().filename().string())) inside.push_back(entry);
+        inside.push_back(folder / below);
+        // Fails for one that is not empty, and for a link, as intended.
+        for (const fs::path& one : inside)
+            if (!fs::is_symlink(fs::symlink_status(one, ignored))) fs::remove(one, ignored);
+    }
 }
 
 /// Whether somebody has changed a file of the set, or put another one there.
@@ -209,7 +242,7 @@ std::vector<std::string> write_set(const BatchPlan& plan, const BatchOptions& op
         files.insert("code/design.json");
     else
         write("code/design.json", text_of_file(design));
-    write("index.html", overview(plan.name, records, plan.clips, folder));
+    write_overview(plan, records, folder, write);
     if (plan.match.luminance)
         for (const plot::Chart& chart : write_luminance_report(plan, records, write)) {
             // gnuplot writes where the first of its files is to be.

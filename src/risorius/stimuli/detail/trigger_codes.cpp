@@ -27,10 +27,10 @@ Json value_of(const design::Condition& condition, const std::string& name) {
 
 CodesOfClips codes_of_clips(const std::vector<ClipPlan>& clips, const design::Design& design) {
     CodesOfClips out;
-    if (design.code_by.empty()) return out;
+    if (design.triggers.code_by.empty()) return out;
     const std::string place = design.file.string() + ":/triggers";
     out.table = "code";
-    for (const std::string& name : design.code_by) {
+    for (const std::string& name : design.triggers.code_by) {
         out.table += "\t" + name;
         bool known = false;
         for (const ClipPlan& clip : clips)
@@ -43,7 +43,7 @@ CodesOfClips codes_of_clips(const std::vector<ClipPlan>& clips, const design::De
     std::map<std::string, int> code_of_values;
     for (const ClipPlan& clip : clips) {
         std::string values;
-        for (const std::string& name : design.code_by) {
+        for (const std::string& name : design.triggers.code_by) {
             const Json value = value_of(clip.condition, name);
             const std::string text = value.is_string() ? value.get<std::string>()
                                      : value.is_null() ? ""

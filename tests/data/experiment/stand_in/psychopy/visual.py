@@ -38,7 +38,7 @@ class Stimulus:
     def __init__(self, window, **known):
         self.window = window
         for name in known:
-            if name not in ("image", "width", "height", "lineWidth", "fillColor", "pos", "text", "units",
+            if name not in ("image", "width", "height", "radius", "lineWidth", "fillColor", "pos", "text", "units",
                             "interpolate"):
                 raise TypeError(name)
 
@@ -46,7 +46,7 @@ class Stimulus:
         pass
 
 
-ImageStim = Rect = Stimulus
+ImageStim = Rect = Circle = Stimulus
 
 
 class TextStim(Stimulus):
