@@ -199,5 +199,14 @@ TEST(RenderJob, TakesAScriptFromMemoryAndNamesItInMessages) {
         message_of([&] { plan_render_job(request); }).rfind("a design, clip one:/events/0", 0), 0u);
 }
 
+// A draft takes steps that are twice as long.
+TEST(RunRecord, TellsTheStepOfItsQuality) {
+    RunRecord record;
+    record.quality = "video";
+    EXPECT_NEAR(record.json().at("step_s").get<double>(), 1 / 60.0, 1e-12);
+    record.quality = "draft";
+    EXPECT_NEAR(record.json().at("step_s").get<double>(), 1 / 30.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace risorius::animate

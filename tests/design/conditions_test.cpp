@@ -359,6 +359,21 @@ TEST_F(Designs, ControlsOfTheOvalNeedTheirNumbers) {
     EXPECT_EQ(with(R"("mirrored")"), "no error");
 }
 
+// A misspelt parameter would make a control, or an override, vanish without a word.
+TEST_F(Designs, WhenAsksForParametersThatThereAre) {
+    const auto said = [&](const Json& json) { return message_of([&] { conditions(json); }); };
+    Json json = design();
+    json["sets"][0]["controls"] = {{{"control", "mirrored"}, {"when", {{"expresion", "fear"}}}}};
+    EXPECT_NE(said(json).find(", control mirrored/when: expected"), std::string::npos)
+        << said(json);
+    EXPECT_NE(said(json).find("\"expression\""), std::string::npos) << said(json);
+    json = design();
+    json["sets"][0]["overrides"] = {
+        {{"when", {{"expresion", "fear"}}}, {"set", {{"onset_s", 0.3}}}}};
+    EXPECT_NE(said(json).find("/overrides/0/when/expresion: expected"), std::string::npos)
+        << said(json);
+}
+
 TEST_F(Designs, CodesTellConditionsOnRequest) {
     Json json = design();
     json["triggers"] = {{"codes", "condition"}, {"code_by", {"expression"}}};

@@ -254,6 +254,30 @@ std::string ascii_word(const std::string& text, std::size_t& at) {
     return word;
 }
 
+/// Throws Error when an override or a control asks for a parameter that no condition of the set has.
+void check_when(const Design& design, const ConditionSet& set) {
+    std::vector<std::string> names{"set"};
+    const auto add = [&](const std::vector<Given>& given) {
+        for (const Given& one : given) names.push_back(one.name);
+    };
+    add(design.parameters);
+    add(set.parameters);
+    for (const std::vector<Given>& row : set.rows) add(row);
+    for (const Factor& factor : set.factors) names.push_back(factor.name);
+    for (const Override& one : set.overrides) add(one.set);
+    if (design.match.motion) {
+        if (!design.match.motion->share.empty()) names.push_back(design.match.motion->of);
+        if (design.match.motion->apex_s) names.push_back(design.match.motion->apex_of);
+    }
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    for (const Override& one : set.overrides)
+        for (const Given& asked : one.when) index_of_name(asked.value.place(), asked.name, names);
+    for (const Control& control : set.controls)
+        for (const auto& [name, value] : control.when)
+            index_of_name(set.place + ", control " + control.name() + "/when", name, names);
+}
+
 }  // namespace
 
 std::string clip_word(const std::string& text) {
@@ -296,6 +320,7 @@ std::vector<Condition> conditions_of(const Design& design, const MotionSearch& s
     Names names;
     for (std::size_t s = 0; s < design.sets.size(); ++s) {
         const ConditionSet& set = design.sets[s];
+        check_when(design, set);
         Neutrals neutrals;
         for (const long index : wanted[s]) {
             std::vector<Given> given = design.parameters;
