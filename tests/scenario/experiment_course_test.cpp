@@ -11,6 +11,7 @@
 
 #include "risorius/report/run_program.h"
 #include "risorius/stimuli/batch.h"
+#include "scenario/jspsych.h"
 #include "scenario/run_program.h"
 
 namespace risorius::scenario {
@@ -104,22 +105,7 @@ class ExperimentCourse : public testing::Test {
         }
         return out;
     }
-    static std::string missing_browser() {
-        const char* cache = std::getenv("XDG_CACHE_HOME");
-        const char* home = std::getenv("HOME");
-        const fs::path place = cache  ? fs::path(cache)
-                               : home ? fs::path(home) / ".cache"
-                                      : fs::path();
-        const fs::path modules = place / "risorius/jspsych/node_modules";
-        if (!fs::exists(modules / "jspsych/package.json"))
-            return "no jsPsych here (tools/setup.sh test fetches it by npm)";
-        for (const char* program : {"chromium", "python3"})
-            if (run_program({program, "--version"}).exit_code != 0)
-                return "no " + std::string(program) + " here";
-        if (!fs::exists(*folder / "node_modules"))
-            fs::create_directory_symlink(modules, *folder / "node_modules");
-        return {};
-    }
+    static std::string missing_browser() { return missing_for_pages(folder->path()); }
     /// Plays a page with a server that saves nothing, and returns what is offered.
     static Json offered_by(const std::string& page) {
         const fs::path data = *folder / "offered.json";

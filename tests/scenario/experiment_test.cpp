@@ -13,6 +13,7 @@
 #include "risorius/media/wav_file.h"
 #include "risorius/report/run_program.h"
 #include "risorius/stimuli/batch.h"
+#include "scenario/jspsych.h"
 #include "scenario/run_program.h"
 
 namespace risorius::scenario {
@@ -22,15 +23,6 @@ namespace fs = std::filesystem;
 using report::run_program;
 
 const fs::path kStandIns = kRoot / "tests/data/experiment";
-
-/// Where tools/setup.sh has put jsPsych, or nothing.
-fs::path jspsych() {
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    const char* home = std::getenv("HOME");
-    const fs::path folder = cache ? fs::path(cache) : home ? fs::path(home) / ".cache" : fs::path();
-    const fs::path modules = folder / "risorius/jspsych/node_modules";
-    return fs::exists(modules / "jspsych/package.json") ? modules : fs::path();
-}
 
 /// A set of two clips, one of them with sound, for all tests of this suite.
 class Experiment : public testing::Test {
@@ -80,17 +72,7 @@ class Experiment : public testing::Test {
         delete first_event;
         delete folder;
     }
-    /// Makes jsPsych known to the set; returns what is missing to play its page.
-    static std::string missing_browser() {
-        const fs::path modules = jspsych();
-        if (modules.empty()) return "no jsPsych here (tools/setup.sh test fetches it by npm)";
-        for (const char* program : {"chromium", "python3"})
-            if (run_program({program, "--version"}).exit_code != 0)
-                return "no " + std::string(program) + " here";
-        if (!fs::exists(*folder / "node_modules"))
-            fs::create_directory_symlink(modules, *folder / "node_modules");
-        return {};
-    }
+    static std::string missing_browser() { return missing_for_pages(folder->path()); }
     static Folder* folder;
     static std::string* first_event;
     static stimuli::BatchReport* report;
