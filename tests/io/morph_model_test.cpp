@@ -289,7 +289,9 @@ TEST(MorphModel, IsWhatTheSpecificationOfGlTfAsksFor) {
             for (const auto& [name, index] : target.items()) {
                 EXPECT_EQ(count(index), vertices[p]) << name;
                 const Json& accessor = json["accessors"][index.get<std::size_t>()];
-                if (name == "POSITION") EXPECT_EQ(accessor["min"].size(), 3u);
+                if (name == "POSITION") {
+                    EXPECT_EQ(accessor["min"].size(), 3u);
+                }
                 // Zero except for the listed entries, with zeros under them: Godot 3 needs a view.
                 ASSERT_TRUE(accessor.contains("sparse") && accessor.contains("bufferView"));
                 const Json& zeros = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
