@@ -411,6 +411,20 @@ class RISORIUS_OT_import_face(bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
 
+def with_face(operator, context, use):
+    """Calls use() with the selected face; the operator tells what is wrong."""
+    face = context.active_object
+    if face is None or face.type != "MESH" or face.data.shape_keys is None:
+        operator.report({"ERROR"}, "expected a face that is selected, found none")
+        return {"CANCELLED"}
+    try:
+        use(face)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        operator.report({"ERROR"}, str(error))
+        return {"CANCELLED"}
+    return {"FINISHED"}
+
+
 class RISORIUS_OT_import_motion(bpy.types.Operator, ImportHelper):
     bl_idname = "import_anim.risorius_motion"
     bl_label = "Import motion of Live Link Face"
@@ -421,16 +435,7 @@ class RISORIUS_OT_import_motion(bpy.types.Operator, ImportHelper):
     )
 
     def execute(self, context):
-        face = context.active_object
-        if face is None or face.type != "MESH" or face.data.shape_keys is None:
-            self.report({"ERROR"}, "expected a face that is selected, found none")
-            return {"CANCELLED"}
-        try:
-            import_motion(self.filepath, face, self.fps)
-        except (OSError, ValueError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return {"FINISHED"}
+        return with_face(self, context, lambda face: import_motion(self.filepath, face, self.fps))
 
 
 class RISORIUS_OT_import_script(bpy.types.Operator, ImportHelper):
@@ -440,17 +445,11 @@ class RISORIUS_OT_import_script(bpy.types.Operator, ImportHelper):
     filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
 
     def execute(self, context):
-        face = context.active_object
-        if face is None or face.type != "MESH" or face.data.shape_keys is None:
-            self.report({"ERROR"}, "expected a face that is selected, found none")
-            return {"CANCELLED"}
-        try:
-            with open(self.filepath) as file:
+        def read(face):
+            with open(self.filepath, encoding="utf-8") as file:
                 import_script(json.load(file), face)
-        except (OSError, ValueError, KeyError, TypeError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return {"FINISHED"}
+
+        return with_face(self, context, read)
 
 
 class RISORIUS_OT_export_script(bpy.types.Operator, ExportHelper):
@@ -460,18 +459,12 @@ class RISORIUS_OT_export_script(bpy.types.Operator, ExportHelper):
     rig: StringProperty(name="Rig", default="rig.json", description="The rig that plays it, as the script names it")
 
     def execute(self, context):
-        face = context.active_object
-        if face is None or face.type != "MESH" or face.data.shape_keys is None:
-            self.report({"ERROR"}, "expected a face that is selected, found none")
-            return {"CANCELLED"}
-        try:
+        def write(face):
             text = json.dumps(script_of(face, self.rig), indent=1)
-            with open(self.filepath, "w") as file:
+            with open(self.filepath, "w", encoding="utf-8") as file:
                 file.write(text + "\n")
-        except (OSError, ValueError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return {"FINISHED"}
+
+        return with_face(self, context, write)
 
 
 CLASSES = (
