@@ -48,6 +48,20 @@ TEST(FaceStatics, SettlesToForcesThatBalance) {
     EXPECT_LT(face.statics().solve(equilibrium_pose).rowwise().norm().maxCoeff(), 5e-6);
 }
 
+// Fits and blend shapes give poses to whichever face is free.
+TEST(FaceStatics, AnEquilibriumFromRestHasTheSameBitsWhateverTheFaceDidBefore) {
+    const track::Drive purse = with_unit("AU24"), pull = some_drive();
+    Face fresh = adult_face(kCoarse), used = adult_face(kCoarse);
+    const auto from_rest = [](Face& face, const track::Drive& drive) {
+        face.start(always(neutral()));
+        face.solve_equilibrium(drive.excitation, drive);
+        return face.statics().nodes();
+    };
+    from_rest(used, purse);
+    EXPECT_EQ(from_rest(used, pull), from_rest(fresh, pull));
+    EXPECT_EQ(from_rest(fresh, purse), from_rest(used, purse));
+}
+
 TEST(FaceStatics, SaysThatItHasNotConverged) {
     Face face = adult_face(kCoarse);
     EXPECT_FALSE(

@@ -95,6 +95,47 @@ TEST(SupernodalCholesky, OrdersAnewOnlyWhenThePatternIsNew) {
     EXPECT_LT((A.selfadjointView<Eigen::Lower>() * x - b).norm(), 1e-12 * b.norm());
 }
 
+TEST(SupernodalCholesky, InSinglePrecisionIsAMetricOfThePrecisionOfAFloat) {
+    SupernodalCholesky factor;
+    const Eigen::SparseMatrix<double> A = box(9, 8, 7, 0.1);
+    ASSERT_TRUE(factor.factorise(A, 3, Precision::kSingle));
+    const Eigen::VectorXd b = some_right(static_cast<int>(A.rows()));
+    Eigen::VectorXd x = b;
+    factor.solve(x.data(), x.data());
+    Eigen::VectorXd left = b - A.selfadjointView<Eigen::Lower>() * x;
+    EXPECT_LT(left.norm(), 1e-5 * b.norm());
+    EXPECT_GT(left.norm(), 1e-12 * b.norm()) << "this was double precision";
+    // A step of refinement squares the error
+    Eigen::VectorXd more(b.size());
+    factor.solve(left.data(), more.data());
+    left = b - A.selfadjointView<Eigen::Lower>() * (x + more);
+    EXPECT_LT(left.norm(), 1e-10 * b.norm());
+
+    ASSERT_TRUE(factor.factorise(A, 3));
+    EXPECT_EQ(factor.orderings(), 1);
+    factor.solve(b.data(), x.data());
+    EXPECT_LT((A.selfadjointView<Eigen::Lower>() * x - b).norm(), 1e-12 * b.norm());
+}
+
+TEST(SupernodalCholesky, KeepsAGivenOrderForOtherPatterns) {
+    SupernodalCholesky factor;
+    const Eigen::SparseMatrix<double> A = box(6, 5, 4, 0.1);
+    factor.order_like(A, 3);
+    Eigen::SparseMatrix<double> more = A;
+    const int last = static_cast<int>(A.rows()) - 3;
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) more.coeffRef(last + r, c) = 1e-3 * (r + c);
+    more.makeCompressed();
+    for (const Eigen::SparseMatrix<double>& one : {A, more, A}) {
+        ASSERT_TRUE(factor.factorise(one, 3));
+        const Eigen::VectorXd b = some_right(static_cast<int>(A.rows()));
+        Eigen::VectorXd x(b.size());
+        factor.solve(b.data(), x.data());
+        EXPECT_LT((one.selfadjointView<Eigen::Lower>() * x - b).norm(), 1e-12 * b.norm());
+    }
+    EXPECT_EQ(factor.orderings(), 1);
+}
+
 TEST(SupernodalCholesky, RefusesWhatIsNotPositiveDefinite) {
     SupernodalCholesky factor;
     Eigen::SparseMatrix<double> A = box(4, 3, 3, 0.1);

@@ -37,6 +37,21 @@ TEST(PrincipalStretches, PutTheGradientTogetherAgainAndCarryItsSign) {
     }
 }
 
+TEST(PrincipalStretches, OfFourAtOnceHaveTheBitsOfEachAlone) {
+    std::array<Mat3, 4> four;
+    for (int k = 0; k < 4; ++k)
+        for (int i = 0; i < 9; ++i)
+            four[static_cast<std::size_t>(k)].data()[i] = std::sin(1.0 + 5 * k + i * (k + 1));
+    four[2] = Mat3::Identity();
+    const std::array<detail::PrincipalStretches, 4> found = detail::principal_stretches(four);
+    for (std::size_t k = 0; k < 4; ++k) {
+        const detail::PrincipalStretches alone = detail::principal_stretches(four[k]);
+        EXPECT_EQ(found[k].u, alone.u) << k;
+        EXPECT_EQ(found[k].v, alone.v) << k;
+        EXPECT_EQ(found[k].sigma, alone.sigma) << k;
+    }
+}
+
 TEST(SecondDerivatives, OfTetsAreTheSlopeOfTheirForcesAlsoInsideOut) {
     const int count = static_cast<int>(kSmall.tets.rows());
     const TetSolid solid(kSmall.tets, kSmall.rest, Eigen::VectorXd::LinSpaced(count, 1e3, 3e3),

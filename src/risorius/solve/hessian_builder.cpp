@@ -64,11 +64,27 @@ void HessianBuilder::add_dense(const int* nodes, int count, const double* matrix
 void HessianBuilder::renew_pattern() {
     places_.resize(used_);
     std::vector<int> count(static_cast<std::size_t>(nodes_) + 1, 0);
-    std::vector<std::pair<int, int>> pairs;  // column, row
-    pairs.reserve(places_.size() + static_cast<std::size_t>(nodes_));
-    for (int i = 0; i < nodes_; ++i) pairs.emplace_back(i, i);
-    for (const Place& place : places_) pairs.emplace_back(place.column, place.row);
-    std::sort(pairs.begin(), pairs.end());
+    // Most pairs are in the pattern already, which is sorted
+    std::vector<char> used(blocks_.row.size(), 0);
+    std::vector<std::pair<int, int>> added, pairs;  // column, row
+    for (int i = 0; i < nodes_; ++i) added.emplace_back(i, i);
+    for (const Place& place : places_)
+        if (place.slot >= 0)
+            used[static_cast<std::size_t>(place.slot)] = 1;
+        else
+            added.emplace_back(place.column, place.row);
+    std::sort(added.begin(), added.end());
+    pairs.reserve(blocks_.row.size() + added.size());
+    auto next = added.begin();
+    for (int j = 0; j < blocks_.nodes(); ++j)
+        for (int k = blocks_.begin[static_cast<std::size_t>(j)];
+             k < blocks_.begin[static_cast<std::size_t>(j) + 1]; ++k) {
+            if (!used[static_cast<std::size_t>(k)]) continue;
+            const std::pair<int, int> pair{j, blocks_.row[static_cast<std::size_t>(k)]};
+            while (next != added.end() && *next < pair) pairs.push_back(*next++);
+            pairs.push_back(pair);
+        }
+    pairs.insert(pairs.end(), next, added.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 
     const SymmetricBlocks before = std::move(blocks_);

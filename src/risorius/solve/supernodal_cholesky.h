@@ -12,6 +12,8 @@
 #include <Eigen/SparseCore>
 #include <memory>
 
+#include "risorius/solve/lanes.h"
+
 namespace risorius::solve {
 
 /// Factors one matrix after another and solves with the last one.
@@ -22,16 +24,23 @@ class SupernodalCholesky {
     SupernodalCholesky(SupernodalCholesky&&) noexcept;
     SupernodalCholesky& operator=(SupernodalCholesky&&) noexcept;
 
-    /// Factors A. Its rows are ordered again only when its pattern differs from the last one. Groups of `block` consecutive
-    /// rows belong to one node and are ordered together. Returns false when A is not positive definite or not finite; then
+    /// Orders the rows for all matrices of the size of A that come, whose patterns differ from that of A by little: nested dissection
+    /// takes as long as several factorisations. Groups of `block` consecutive rows belong to one node and are ordered together.
+    void order_like(const Eigen::SparseMatrix<double>& A, int block);
+
+    /// Factors A. Its pattern is analysed again only when it differs from the last one. Without order_like(), its rows are ordered
+    /// then, too. Groups of `block` consecutive
+    /// rows belong to one node and are ordered together. `kept` is the precision of the factor and of its solutions: single takes
+    /// half of the time, and serves as a metric. Returns false when A is not positive definite or not finite in this precision; then
     /// there is no factor.
-    bool factorise(const Eigen::SparseMatrix<double>& A, int block);
+    bool factorise(const Eigen::SparseMatrix<double>& A, int block,
+                   Precision kept = Precision::kDouble);
 
     /// Computes x = A^-1 b, n numbers each. x may be b. It uses a scratch array, so only one thread at a time may call it.
     void solve(const double* b, double* x) const;
 
     long nonzeros() const;   ///< number of entries of the panels
-    long orderings() const;  ///< number of times that rows were ordered
+    long orderings() const;  ///< number of times that rows were ordered by nested dissection
 
   private:
     struct Impl;

@@ -2,6 +2,7 @@
 // The second derivative of TetSolid, tet by tet in the frame of its principal stretches:
 //   psi_i = mu s_i (s_i^2 - 1) + K (J - 1 + c min(0, J - J_c)) s_j s_k
 #include <algorithm>
+#include <array>
 
 #include "risorius/solve/energy_term.h"
 #include "risorius/tissue/detail/principal_stretches.h"
@@ -33,12 +34,18 @@ detail::StretchModes modes_of(const Vec3& s, double mu, double at_rest) {
 
 void TetSolid::add_hessian(const Points& x, solve::Curvature curvature,
                            solve::HessianBuilder& hessian) const {
+    std::array<Mat3, 4> f;
+    std::array<detail::PrincipalStretches, 4> four;
     for (int tet = 0; tet < size(); ++tet) {
         const Mat3& inverse = inverse_[static_cast<std::size_t>(tet)];
-        Mat3 edge;
-        for (int k = 0; k < 3; ++k)
-            edge.col(k) = (x.row(tets_(tet, k + 1)) - x.row(tets_(tet, 0))).transpose();
-        const detail::PrincipalStretches stretches = detail::principal_stretches(edge * inverse);
+        const auto lane = static_cast<std::size_t>(tet % 4);
+        if (lane == 0) {
+            for (int k = 0; k < 4; ++k)
+                f[static_cast<std::size_t>(k)] =
+                    deformation_gradient(x, std::min(tet + k, size() - 1));
+            four = detail::principal_stretches(f);
+        }
+        const detail::PrincipalStretches& stretches = four[lane];
         detail::StretchModes modes =
             modes_of(stretches.sigma, rest_volume_[tet] * mu_[tet], rest_volume_[tet] * bulk_[tet]);
         if (curvature == solve::Curvature::kPositive) detail::clamp(modes);

@@ -10,88 +10,92 @@ namespace risorius::solve::detail {
 
 namespace {
 
-constexpr int kTileRows = 8, kTileColumns = 4;  // of C, kept in registers
-constexpr int kPanelBlock = 32;                 // columns of a panel that are factored together
+constexpr int kPanelBlock = 32;  // columns of a panel that are factored together
 
-Lanes load(const double* p) {
-    Lanes out;
+template <class Real>
+using Lane = typename LanesOf<Real>::Lane;
+template <class Real>
+constexpr int kTileRows = 2 * LanesOf<Real>::kWidth;  // of C, kept in registers
+static_assert(kTileRows<float> <= kReadBeyond && kTileRows<double> <= kReadBeyond);
+
+template <class Real>
+Lane<Real> load(const Real* p) {
+    Lane<Real> out;
     __builtin_memcpy(&out, p, sizeof out);
     return out;
 }
-void store(double* p, const Lanes& v) { __builtin_memcpy(p, &v, sizeof v); }
+template <class Real>
+void store(Real* p, const Lane<Real>& v) {
+    __builtin_memcpy(p, &v, sizeof v);
+}
 
-/// An 8 x 4 tile of C.
-void tile(const double* a, int a_stride, const double* b, int b_stride, int k, double* c,
-          int c_stride) {
-    Lanes s[kTileColumns][2]{};
+/// A tile of C with two lanes of rows. Nodes have three columns, so most products have a multiple of three: six columns fill the
+/// registers, three are what is left over.
+template <int Columns, class Real>
+void tile(const Real* a, int a_stride, const Real* b, int b_stride, int k, Real* c, int c_stride) {
+    constexpr int kWidth = LanesOf<Real>::kWidth;
+    Lane<Real> s[Columns][2]{};
     for (int p = 0; p < k; ++p) {
-        const Lanes a0 = load(a), a1 = load(a + 4);
-        for (int j = 0; j < kTileColumns; ++j) {
+        const Lane<Real> a0 = load(a), a1 = load(a + kWidth);
+        for (int j = 0; j < Columns; ++j) {
             s[j][0] += a0 * b[j];
             s[j][1] += a1 * b[j];
         }
         a += a_stride;
         b += b_stride;
     }
-    for (int j = 0; j < kTileColumns; ++j) {
+    for (int j = 0; j < Columns; ++j) {
         store(c + static_cast<long>(j) * c_stride, s[j][0]);
-        store(c + static_cast<long>(j) * c_stride + 4, s[j][1]);
-    }
-}
-
-void edge(const double* a, int a_stride, const double* b, int b_stride, int m, int n, int k,
-          double* c, int c_stride) {
-    for (int j = 0; j < n; ++j) {
-        double sum[kTileRows]{};
-        for (int p = 0; p < k; ++p) {
-            const double* const column = a + static_cast<long>(p) * a_stride;
-            const double factor = b[static_cast<long>(p) * b_stride + j];
-            for (int i = 0; i < m; ++i) sum[i] += column[i] * factor;
-        }
-        for (int i = 0; i < m; ++i) c[static_cast<long>(j) * c_stride + i] = sum[i];
+        store(c + static_cast<long>(j) * c_stride + kWidth, s[j][1]);
     }
 }
 
 }  // namespace
 
-void product(const double* a, int a_stride, const double* b, int b_stride, int m, int n, int k,
-             double* c) {
-    for (int j = 0; j < n; j += kTileColumns) {
-        const int columns = std::min(kTileColumns, n - j);
-        for (int i = j - j % kTileRows; i < m; i += kTileRows) {
-            const int rows = std::min(kTileRows, m - i);
-            double* const to = c + static_cast<long>(j) * m + i;
-            if (rows == kTileRows && columns == kTileColumns)
-                tile(a + i, a_stride, b + j, b_stride, k, to, m);
-            else
-                edge(a + i, a_stride, b + j, b_stride, rows, columns, k, to, m);
-        }
-    }
+template <class Real>
+int stored_rows(int m) {
+    return (m + kTileRows<Real> - 1) / kTileRows<Real> * kTileRows<Real>;
 }
 
-bool factorise_panel(double* panel, int tall, int width, std::vector<double>& scratch) {
+template <class Real>
+void product(const Real* a, int a_stride, const Real* b, int b_stride, int m, int n, int k,
+             Real* c) {
+    const int c_stride = stored_rows<Real>(m);
+    const auto columns = [&](int j, auto tile_of) {
+        for (int i = j - j % kTileRows<Real>; i < m; i += kTileRows<Real>)
+            tile_of(a + i, a_stride, b + j, b_stride, k, c + static_cast<long>(j) * c_stride + i,
+                    c_stride);
+    };
+    int j = 0;
+    for (; j + 6 <= n; j += 6) columns(j, tile<6, Real>);
+    for (; j + 3 <= n; j += 3) columns(j, tile<3, Real>);
+    for (; j < n; ++j) columns(j, tile<1, Real>);
+}
+
+template <class Real>
+bool factorise_panel(Real* panel, int tall, int width, std::vector<Real>& scratch) {
     const auto column = [&](int j) { return panel + static_cast<long>(j) * tall; };
     for (int from = 0; from < width; from += kPanelBlock) {
         const int to = std::min(width, from + kPanelBlock);
         if (from > 0) {  // what the earlier columns subtract from this block
-            const int m = tall - from, n = to - from;
-            scratch.resize(static_cast<std::size_t>(m) * static_cast<std::size_t>(n));
+            const int m = tall - from, n = to - from, stride = stored_rows<Real>(m);
+            scratch.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(n));
             product(panel + from, tall, panel + from, tall, m, n, from, scratch.data());
             for (int j = 0; j < n; ++j) {
-                double* const out = column(from + j) + from;
-                const double* const change = scratch.data() + static_cast<long>(j) * m;
+                Real* const out = column(from + j) + from;
+                const Real* const change = scratch.data() + static_cast<long>(j) * stride;
                 for (int i = j; i < m; ++i) out[i] -= change[i];
             }
         }
         for (int j = from; j < to; ++j) {
-            double* const own = column(j);
+            Real* const own = column(j);
             for (int p = from; p < j; ++p) {
-                const double* const before = column(p);
-                const double factor = before[j];
+                const Real* const before = column(p);
+                const Real factor = before[j];
                 for (int i = j; i < tall; ++i) own[i] -= factor * before[i];
             }
             if (!(own[j] > 0) || !std::isfinite(own[j])) return false;
-            const double root = std::sqrt(own[j]), inverse = 1 / root;
+            const Real root = std::sqrt(own[j]), inverse = 1 / root;
             own[j] = root;
             for (int i = j + 1; i < tall; ++i) own[i] *= inverse;
         }
@@ -99,25 +103,54 @@ bool factorise_panel(double* panel, int tall, int width, std::vector<double>& sc
     return true;
 }
 
-void eliminate(const double* panel, int tall, int width, double* w) {
+template <class Real>
+void eliminate(const Real* panel, int tall, int width, Real* w) {
     for (int j = 0; j < width; ++j) {
-        const double* const own = panel + static_cast<long>(j) * tall;
-        const double x = w[j] / own[j];
+        const Real* const own = panel + static_cast<long>(j) * tall;
+        const Real x = w[j] / own[j];
         w[j] = x;
-        for (int i = j + 1; i < tall; ++i) w[i] -= x * own[i];
+        for (int i = j + 1; i < width; ++i) w[i] -= x * own[i];
+    }
+    // The rows below, by three columns at a time
+    int j = 0;
+    for (; j + 3 <= width; j += 3) {
+        const Real* const own = panel + static_cast<long>(j) * tall;
+        const Real *const second = own + tall, *const third = second + tall;
+        const Real x = w[j], y = w[j + 1], z = w[j + 2];
+        for (int i = width; i < tall; ++i) w[i] -= x * own[i] + y * second[i] + z * third[i];
+    }
+    for (; j < width; ++j) {
+        const Real* const own = panel + static_cast<long>(j) * tall;
+        const Real x = w[j];
+        for (int i = width; i < tall; ++i) w[i] -= x * own[i];
     }
 }
 
-void substitute(const double* panel, int tall, int width, double* w) {
+template <class Real>
+void substitute(const Real* panel, int tall, int width, Real* w) {
+    constexpr int kWidth = LanesOf<Real>::kWidth;
     for (int j = width - 1; j >= 0; --j) {
-        const double* const own = panel + static_cast<long>(j) * tall;
-        Lanes sums{};
+        const Real* const own = panel + static_cast<long>(j) * tall;
+        Lane<Real> sums{};
         int i = j + 1;
-        for (; i + 3 < tall; i += 4) sums += load(own + i) * load(w + i);
-        double sum = sum_lanes(sums);
+        for (; i + kWidth <= tall; i += kWidth) sums += load(own + i) * load(w + i);
+        Lanes total{};
+        add_lanes(total, sums);
+        Real sum = static_cast<Real>(sum_lanes(total));
         for (; i < tall; ++i) sum += own[i] * w[i];
         w[j] = (w[j] - sum) / own[j];
     }
 }
+
+template int stored_rows<double>(int);
+template int stored_rows<float>(int);
+template void product(const double*, int, const double*, int, int, int, int, double*);
+template void product(const float*, int, const float*, int, int, int, int, float*);
+template bool factorise_panel(double*, int, int, std::vector<double>&);
+template bool factorise_panel(float*, int, int, std::vector<float>&);
+template void eliminate(const double*, int, int, double*);
+template void eliminate(const float*, int, int, float*);
+template void substitute(const double*, int, int, double*);
+template void substitute(const float*, int, int, float*);
 
 }  // namespace risorius::solve::detail

@@ -8,21 +8,33 @@
 
 namespace risorius::solve::detail {
 
-/// Computes C = A B^T, where A is m x k, B is n x k, and C is m x n and stored with m rows. The entries above the diagonal of
-/// the first n rows of C are not used and may be wrong.
-void product(const double* a, int a_stride, const double* b, int b_stride, int m, int n, int k,
-             double* c);
+/// Entries that must be readable after the last one of `a` in product(). Nothing is computed from them.
+inline constexpr int kReadBeyond = 16;
 
-/// Computes the panel's columns of L in place. Returns false when a pivot is not positive. `scratch` is resized as needed.
-bool factorise_panel(double* panel, int tall, int width, std::vector<double>& scratch);
+/// Returns the number of rows that C has in memory when m of them are wanted.
+template <class Real>
+int stored_rows(int m);
+
+/// Computes C = A B^T, where A is m x k, B is n x k, and C is m x n and stored with stored_rows(m) rows. The entries above the
+/// diagonal of the first n rows of C, and the rows from m on, are not used and may be wrong.
+template <class Real>
+void product(const Real* a, int a_stride, const Real* b, int b_stride, int m, int n, int k,
+             Real* c);
+
+/// Computes the panel's columns of L in place. Returns false when a pivot is not positive. `scratch` is resized as needed. At least
+/// kReadBeyond entries follow the panel.
+template <class Real>
+bool factorise_panel(Real* panel, int tall, int width, std::vector<Real>& scratch);
 
 /// Forward substitution with one panel. On entry, w has the right-hand side in the first `width` rows and zeros below. On
 /// return, it has the solution in these rows, and below them the numbers to subtract from the right-hand side of the other
 /// rows.
-void eliminate(const double* panel, int tall, int width, double* w);
+template <class Real>
+void eliminate(const Real* panel, int tall, int width, Real* w);
 
 /// Backward substitution with one panel. On entry, w has the right-hand side in the first `width` rows and the solution in the
 /// rows below. On return, it has the solution in all rows.
-void substitute(const double* panel, int tall, int width, double* w);
+template <class Real>
+void substitute(const Real* panel, int tall, int width, Real* w);
 
 }  // namespace risorius::solve::detail

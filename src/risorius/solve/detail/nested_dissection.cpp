@@ -69,12 +69,12 @@ std::vector<int> nested_dissection(const Eigen::SparseMatrix<double>& A, int blo
     return order;
 }
 
-PanelPattern panel_pattern(const Eigen::SparseMatrix<double>& A, int block) {
+PanelPattern panel_pattern(const Eigen::SparseMatrix<double>& A, const std::vector<int>& order) {
     PanelPattern out;
-    out.order = nested_dissection(A, block);
+    out.order = order;
     Workspace work;
     work.common.supernodal = CHOLMOD_SUPERNODAL;
-    work.common.postorder = 0;  // the nodes are in post-order already
+    work.common.postorder = 1;
     work.common.method[0].ordering = CHOLMOD_GIVEN;
     cholmod_sparse view = view_of(A);
     work.factor = cholmod_analyze_p(&view, out.order.data(), nullptr, 0, &work.common);

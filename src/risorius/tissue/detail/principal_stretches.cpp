@@ -5,34 +5,63 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "risorius/solve/lanes.h"
+
 namespace risorius::tissue::detail {
 
-PrincipalStretches principal_stretches(const Mat3& f) {
+namespace {
+
+using solve::Lanes;
+
+/// Four 3 x 3 matrices by columns.
+struct LaneMatrix {
+    Lanes column[3][3];
+};
+
+Lanes dot(const Lanes (&a)[3], const Lanes (&b)[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Lanes absolute(const Lanes& a) { return a < 0 ? -a : a; }
+
+/// Turns two columns by the angle with cosine c and sine s.
+void turn(LaneMatrix& m, int p, int q, const Lanes& c, const Lanes& s) {
+    for (int i = 0; i < 3; ++i) {
+        const Lanes old = m.column[p][i];
+        m.column[p][i] = c * old - s * m.column[q][i];
+        m.column[q][i] = s * old + c * m.column[q][i];
+    }
+}
+
+/// Rotates B = F V and V until the columns of B are orthogonal. A lane that is done is turned by 0.
+void orthogonalise(LaneMatrix& b, LaneMatrix& v) {
     constexpr int kSweeps = 12;
     constexpr double kOrthogonal = 1e-15;
-    PrincipalStretches out{f, Mat3::Identity(), Vec3::Zero()};
-    Mat3& b = out.u;  // F V, until its columns are orthogonal
+    const Lanes one = Lanes{} + 1.0;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
         bool turned = false;
         for (int k = 0; k < 3; ++k) {
             const int p = k == 0 ? 1 : 0, q = k == 2 ? 1 : 2;
-            const double pp = b.col(p).squaredNorm(), qq = b.col(q).squaredNorm();
-            const double pq = b.col(p).dot(b.col(q));
-            if (std::abs(pq) <= kOrthogonal * std::sqrt(pp * qq)) continue;
+            const Lanes pp = dot(b.column[p], b.column[p]), qq = dot(b.column[q], b.column[q]);
+            const Lanes pq = dot(b.column[p], b.column[q]);
+            const auto done = absolute(pq) <= kOrthogonal * solve::sqrt_lanes(pp * qq);
+            if (done[0] && done[1] && done[2] && done[3]) continue;
             turned = true;
-            const double zeta = (qq - pp) / (2 * pq);
-            const double t =
-                (zeta < 0 ? -1.0 : 1.0) / (std::abs(zeta) + std::sqrt(1 + zeta * zeta));
-            const double c = 1 / std::sqrt(1 + t * t), s = c * t;
-            for (Mat3* m : {&b, &out.v}) {
-                const Vec3 old = m->col(p);
-                m->col(p) = c * old - s * m->col(q);
-                m->col(q) = s * old + c * m->col(q);
-            }
+            const Lanes zeta = (qq - pp) / (2 * (done ? one : pq));
+            const Lanes t =
+                (zeta < 0 ? -one : one) / (absolute(zeta) + solve::sqrt_lanes(1 + zeta * zeta));
+            const Lanes cosine = one / solve::sqrt_lanes(1 + t * t);
+            const Lanes c = done ? one : cosine, s = done ? Lanes{} : cosine * t;
+            turn(b, p, q, c, s);
+            turn(v, p, q, c, s);
         }
         if (!turned) break;
     }
+}
 
+// From B = F V with orthogonal columns.
+PrincipalStretches from_columns(PrincipalStretches out) {
+    Mat3& b = out.u;
     // The direction of the smallest column comes from the other two, so that U is a rotation and its stretch has the sign.
     const Vec3 length(b.col(0).norm(), b.col(1).norm(), b.col(2).norm());
     int min = 0, max = 0;
@@ -55,6 +84,33 @@ PrincipalStretches principal_stretches(const Mat3& f) {
     b.col(min) = b.col((min + 1) % 3).cross(b.col((min + 2) % 3));
     out.sigma[min] = thin.dot(b.col(min));
     return out;
+}
+
+}  // namespace
+
+std::array<PrincipalStretches, 4> principal_stretches(const std::array<Mat3, 4>& f) {
+    LaneMatrix b, v;
+    for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i) {
+            b.column[j][i] = Lanes{f[0](i, j), f[1](i, j), f[2](i, j), f[3](i, j)};
+            v.column[j][i] = Lanes{} + (i == j ? 1.0 : 0.0);
+        }
+    orthogonalise(b, v);
+    std::array<PrincipalStretches, 4> out;
+    for (int lane = 0; lane < 4; ++lane) {
+        PrincipalStretches one;
+        for (int j = 0; j < 3; ++j)
+            for (int i = 0; i < 3; ++i) {
+                one.u(i, j) = b.column[j][i][lane];
+                one.v(i, j) = v.column[j][i][lane];
+            }
+        out[static_cast<std::size_t>(lane)] = from_columns(one);
+    }
+    return out;
+}
+
+PrincipalStretches principal_stretches(const Mat3& f) {
+    return principal_stretches(std::array<Mat3, 4>{f, f, f, f})[0];
 }
 
 void clamp(StretchModes& modes) {

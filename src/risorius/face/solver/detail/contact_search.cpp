@@ -212,6 +212,17 @@ ContactSearch::NearestFew ContactSearch::nearest_few(const Vec3& p, const std::v
     return out;
 }
 
+std::vector<std::pair<int, int>> ContactSearch::neighbours_across_lips() const {
+    std::vector<std::pair<int, int>> out;
+    for (const auto& [lip, other] : {std::pair(&upper_, &lower_), std::pair(&lower_, &upper_)})
+        for (const LipNode& node : *lip)
+            for (const auto& [squared, near] :
+                 nearest_few(rest_.row(node.node).transpose(), *other, rest_))
+                if (near >= 0)
+                    out.emplace_back(node.node, (*other)[static_cast<std::size_t>(near)].node);
+    return out;
+}
+
 // Pairs each node of a lip with the plane of the nearest nodes of the other lip, whose normals are `facing`.
 void ContactSearch::find_lip(const std::vector<LipNode>& lip, const std::vector<LipNode>& other,
                              const std::vector<Vec3>& facing, int first_slot,

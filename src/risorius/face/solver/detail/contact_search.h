@@ -43,6 +43,9 @@ class ContactSearch {
     const std::vector<int>& nodes() const { return nodes_; }
     const std::vector<double>& node_stiffness() const { return node_stiffness_; }
 
+    /// Returns the pairs of nodes, one on each lip, that are near each other at rest: those of contacts of the lips in most poses.
+    std::vector<std::pair<int, int>> neighbours_across_lips() const;
+
     /// Returns the maximum penetration of the pairs whose body is in `first`..`last`, m.
     static double deepest(const std::vector<tissue::Contacts::Contact>& pairs, const Points& x,
                           int first = 0, int last = kLipBody);

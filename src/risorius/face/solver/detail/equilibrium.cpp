@@ -34,7 +34,9 @@ void Equilibrium::prepare(const Pose& pose) {
     prescribe_(pose.activation, pose.drive);
     tissue_.begin_rest(pose.x);
     tissue_.find_rest_contacts(pose.x);
-    if (!factored_) solver_.factorise(pose.x, pose.activation, solve::Curvature::kExact);
+    if (!factored_)
+        solver_.factorise(pose.x, pose.activation, solve::Curvature::kExact,
+                          solve::Precision::kDouble);
     factored_ = true;
 }
 

@@ -118,6 +118,15 @@ class FaceTissue {
                             solve::Curvature curvature, solve::HessianBuilder& hessian) const;
     const std::vector<char>& fixed() const { return fixed_; }  ///< one flag per row of x
     const tissue::Contacts& contacts() const { return contacts_; }
+    /// Puts other contacts in place of the present ones, which are returned.
+    std::vector<tissue::Contacts::Contact> exchange_contacts(
+        std::vector<tissue::Contacts::Contact> contacts) {
+        return std::exchange(contacts_.list(), std::move(contacts));
+    }
+    /// Returns pairs of nodes whose contact is likely, see ContactSearch.
+    std::vector<std::pair<int, int>> neighbours_across_lips() const {
+        return search_.neighbours_across_lips();
+    }
     /// Like find_contacts(), for equilibria: contacts become stiffer with depth and have no memory of former solves.
     void find_rest_contacts(const Points& x);
     /// Like find_contacts(), without memory: for the first iterations towards an equilibrium.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "risorius/core/dense_algebra.h"
 #include "risorius/solve/energy_term.h"
@@ -19,7 +20,7 @@ constexpr double kLoose_n_per_m = 1e-6;
 // Farther from equilibrium the exact H is hardly ever positive definite.
 constexpr double kFar_m = 0.5e-3;
 constexpr double kEnoughGain =
-    0.2;  // H is factored again after a round that leaves more than this fraction of |B g|
+    0.5;  // H is factored again after a round that leaves more than this fraction of |B g|
 constexpr double kStale =
     5;  // or that starts with this multiple of what the last round left: contacts have changed
 // Contact planes are valid nearby only: the maximum move of a node per iteration is halved after rounds that do not come nearer, and
@@ -87,6 +88,8 @@ class FixedPoint {
 struct StaticSolver::Linear {
     solve::HessianBuilder hessian;
     solve::SupernodalCholesky factor;
+    /// H with the pattern of lips that touch at rest: every search that forgot starts with it.
+    std::optional<solve::HessianBuilder> first;
     explicit Linear(const FaceTissue& tissue)
         : hessian(static_cast<int>(tissue.rest().rows()), tissue.fixed()) {}
 };
@@ -94,6 +97,12 @@ struct StaticSolver::Linear {
 StaticSolver::StaticSolver(FaceTissue& tissue)
     : tissue_(tissue), linear_(std::make_unique<Linear>(tissue)) {}
 StaticSolver::~StaticSolver() = default;
+
+void StaticSolver::forget() {
+    known_ = false;
+    touched_.clear();  // the pattern, and with it the last bits, depends on former contacts
+    if (linear_->first) linear_->hessian = *linear_->first;
+}
 
 double StaticSolver::energy(const Points& x, const Eigen::VectorXd& activation, Points& gradient) {
     double energy = tissue_.static_energy(x, activation, gradient);
@@ -105,8 +114,19 @@ double StaticSolver::energy(const Points& x, const Eigen::VectorXd& activation, 
     return energy;
 }
 
+void StaticSolver::order(const Points& x, const Eigen::VectorXd& activation) {
+    const auto found = tissue_.exchange_contacts({});
+    linear_->hessian.clear();
+    tissue_.add_static_hessian(x, activation, solve::Curvature::kPositive, linear_->hessian);
+    for (const auto& [a, b] : tissue_.neighbours_across_lips())
+        linear_->hessian.add(std::min(a, b), std::max(a, b), Mat3::Zero());
+    linear_->factor.order_like(linear_->hessian.build(), 3);
+    linear_->first = linear_->hessian;
+    tissue_.exchange_contacts(found);
+}
+
 void StaticSolver::factorise(const Points& x, const Eigen::VectorXd& activation,
-                             solve::Curvature first) {
+                             solve::Curvature first, solve::Precision precision) {
     tissue_.begin_rest(x);
     // Pairs of lips come and go. The pattern keeps all of them, so that the matrix is rarely reordered
     for (const tissue::Contacts::Contact& contact : tissue_.contacts().list())
@@ -117,6 +137,7 @@ void StaticSolver::factorise(const Points& x, const Eigen::VectorXd& activation,
                 const auto at = std::lower_bound(touched_.begin(), touched_.end(), pair);
                 if (at == touched_.end() || *at != pair) touched_.insert(at, pair);
             }
+    if (!linear_->first) order(x, activation);
     for (solve::Curvature curvature = first;; curvature = solve::Curvature::kPositive) {
         linear_->hessian.clear();
         tissue_.add_static_hessian(x, activation, curvature, linear_->hessian);
@@ -126,8 +147,11 @@ void StaticSolver::factorise(const Points& x, const Eigen::VectorXd& activation,
             linear_->hessian.add_diagonal(spring.node, spring.n_per_m);
         for (const auto& [a, b] : touched_) linear_->hessian.add(a, b, Mat3::Zero());
         ++factors_;
-        const bool positive = linear_->factor.factorise(linear_->hessian.build(), 3);
-        if (positive || curvature == solve::Curvature::kPositive) break;
+        const Eigen::SparseMatrix<double>& H = linear_->hessian.build();
+        if (linear_->factor.factorise(H, 3, precision)) break;
+        if (curvature == solve::Curvature::kExact) continue;
+        linear_->factor.factorise(H, 3);
+        break;
     }
     known_ = true;
 }

@@ -38,20 +38,20 @@ class StaticSolver {
                                 Points& x);
 
     /// Factorises H at x with the current contacts. `first` is the form of H that is tried first. If it is not positive definite, the
-    /// positive part of H is factorised.
-    void factorise(const Points& x, const Eigen::VectorXd& activation, solve::Curvature first);
+    /// positive part of H is factorised. `precision` is that of the factor: single is enough for the metric of a search.
+    void factorise(const Points& x, const Eigen::VectorXd& activation, solve::Curvature first,
+                   solve::Precision precision = solve::Precision::kSingle);
     /// Computes y = H^-1 b, n x 3 each, with the last factor. Fixed rows of y are zero.
     void solve(const Points& b, Points& y) const;
     /// Forgets the last factor, so that the result of the next solve_equilibrium() depends on its arguments alone.
-    void forget() {
-        known_ = false;
-        touched_.clear();  // the elimination order of the matrix depends on former contacts
-    }
+    void forget();
 
     long factors() const { return factors_; }  ///< number of factorisations so far
 
   private:
     struct Linear;
+    /// Orders the rows of H once, as if the lips touched at rest. The order depends on the face alone.
+    void order(const Points& x, const Eigen::VectorXd& activation);
     /// Moves x near the equilibrium. Does nothing if x is near already.
     void approach(const Eigen::VectorXd& activation, const StaticOptions& options, Points& x,
                   StepStats& figures);
