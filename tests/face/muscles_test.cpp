@@ -249,7 +249,7 @@ TEST_F(Muscles, AStrongerMuscleMovesMore) {
     Face other = adult_face();
     const double before =
         at(moved_mm(other, equilibrium_pose(other, with_muscle("risorius", 0.5))), "ch_l").norm();
-    other.calibration().scale_muscle("risorius", 2.0);
+    other.calibration().set_strength("risorius", 2.0);
     EXPECT_GT(
         at(moved_mm(other, equilibrium_pose(other, with_muscle("risorius", 0.5))), "ch_l").norm(),
         1.2 * before);

@@ -39,7 +39,8 @@ TEST(FitStrengths, FindsAgainWhatAMuscleAndALipHadBeforeTheyWereSpoilt) {
     spoilt.lips.upper_push *= kFarther;
 
     face::Face face = face_of(spoilt);
-    const StrengthFit fit = fit_strengths(face, spoilt, goal, {.keep = 1e-4}, "adult", {});
+    FaceTeam team(face);
+    const StrengthFit fit = fit_strengths(team, spoilt, goal, {.keep = 1e-4}, "adult", {});
     EXPECT_GT(fit.difference_before, 0.15);
     EXPECT_LT(fit.difference, 0.03);
     EXPECT_NEAR(fit.factor.at("zygomaticus_major"), 1 / kStronger, 0.04);
@@ -50,8 +51,9 @@ TEST(FitStrengths, FindsAgainWhatAMuscleAndALipHadBeforeTheyWereSpoilt) {
 
 TEST(FitStrengths, NeedsAWayForEveryLandmarkItCompares) {
     face::Face face = face_of(scene::adult_of_bundles().rig);
+    FaceTeam team(face);
     try {
-        fit_strengths(face, scene::adult_of_bundles().rig,
+        fit_strengths(team, scene::adult_of_bundles().rig,
                       {{"mouthSmile", {{"ch_l", Vec3::Zero()}}}}, {}, "adult", {});
         FAIL() << "nothing thrown";
     } catch (const Error& error) {

@@ -5,18 +5,26 @@
 
 namespace risorius::face {
 
-void Calibration::scale_muscle(const std::string& muscle, double factor) {
+void Calibration::set_strength(const std::string& muscle, double factor) {
+    face_->strength[muscle] = factor;
     face_->equilibrium->moved();
     face_->tissue.forget_mouth();
-    face_->tissue.solids().scale_strength(muscle, factor);
+    face_->tissue.solids().set_strength(muscle, factor);
+    std::vector<double>& built_f0_n = face_->built_f0_n;
+    if (built_f0_n.empty())
+        for (const auto& fibre : face_->tissue.fibres().fibres()) built_f0_n.push_back(fibre.f0_n);
     for (Side side : {Side::kLeft, Side::kRight}) {
         const int column = face_->channels.column(muscle, side);
         if (side == Side::kRight && column == face_->channels.column(muscle, Side::kLeft)) continue;
         for (std::size_t f = 0; f < face_->tissue.fibres().fibres().size(); ++f)
             if (face_->tissue.fibres().fibres()[f].column == column)
-                face_->tissue.fibres().set_f0(static_cast<int>(f),
-                                              factor * face_->tissue.fibres().fibres()[f].f0_n);
+                face_->tissue.fibres().set_f0(static_cast<int>(f), factor * built_f0_n[f]);
     }
+}
+
+double Calibration::strength(const std::string& muscle) const {
+    const auto found = face_->strength.find(muscle);
+    return found == face_->strength.end() ? 1.0 : found->second;
 }
 
 void Calibration::scale_lips(const rig::LipsDescription& lips) {

@@ -21,8 +21,10 @@ class Calibration {
   public:
     explicit Calibration(FaceImpl& face) : face_(&face) {}
 
-    /// Multiplies the maximum isometric force of every fibre of a muscle, on both sides, by `factor`.
-    void scale_muscle(const std::string& muscle, double factor);
+    /// Sets the maximum isometric force of every fibre of a muscle, on both sides, to `factor` times that of the face as it was built.
+    void set_strength(const std::string& muscle, double factor);
+    /// Returns the factor of the last set_strength() of a muscle, 1 at first.
+    double strength(const std::string& muscle) const;
     /// Replaces the numbers of the rig that say how far orbicularis oris turns and pushes the lips.
     void scale_lips(const rig::LipsDescription& lips);
 

@@ -130,7 +130,7 @@ fs::path changed_mesh_file(const fs::path& rig) {
 }
 
 // Calibrates each muscle separately, then all together.
-void scale_muscles(face::Face& face, const FitOptions& options, const fs::path& standard,
+void scale_muscles(FaceTeam& team, const FitOptions& options, const fs::path& standard,
                    const ProgressMonitor& monitor, rig::RigDescription& rig, FitReport& report) {
     const auto part_of = [&](double begin, double end) {
         ProgressMonitor part = monitor;
@@ -141,10 +141,10 @@ void scale_muscles(face::Face& face, const FitOptions& options, const fs::path& 
     };
     const ProgressMonitor alone = part_of(0, options.together ? 0.25 : 1.0),
                           together = part_of(0.25, 0.6), units = part_of(0.6, 1.0);
-    report.strengths = calibrate_strength(face, rig, alone);
+    report.strengths = calibrate_strength(team, rig, alone);
     if (options.together) {
         const StrengthFit fit = fit_strengths(
-            face, rig, scene::read_landmark_displacements(standard / "landmark_ways.json"), {},
+            team, rig, scene::read_landmark_displacements(standard / "landmark_ways.json"), {},
             options.out.string(), together);
         report.difference_before = fit.difference_before;
         report.difference = fit.difference;
@@ -152,7 +152,7 @@ void scale_muscles(face::Face& face, const FitOptions& options, const fs::path& 
         for (MuscleStrength& found : report.strengths)
             found.strength *= fit.factor.at(found.muscle);
     }
-    if (options.together) report.unit_gains = rig.unit_gains = fit_units(face, rig, units);
+    if (options.together) report.unit_gains = rig.unit_gains = fit_units(team, rig, units);
     for (const MuscleStrength& found : report.strengths) {
         const double strength = std::round(1e4 * found.strength) / 1e4;
         for (rig::SolidMuscle& solid : rig.solids)
@@ -375,7 +375,15 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
     const rig::Head& head = face.head();
 
     // Give every muscle the strength that it needs on this head.
-    if (options.calibrate) scale_muscles(face, options, standard, monitor, rig, report);
+    if (options.calibrate) {
+        FaceTeam team(
+            face,
+            [&, same = rig] {
+                return face::Face(same, mesh, face::quality_named("video"), options.out.string());
+            },
+            options.threads);
+        scale_muscles(team, options, standard, monitor, rig, report);
+    }
 
     // Write the rig and the report.
     add_notes(outputs.write(standard, mesh, rig), report);

@@ -38,6 +38,7 @@ struct FitOptions {
     std::filesystem::path report{};  ///< folder for a page with pictures; empty: none
     /// True: the muscles that the standard table lists as solids are simulated as solids, not as bundles of fibres
     bool solids = false;
+    int threads = 0;  ///< 0: as many as the machine has; the rig is the same for any number
 };
 
 /// The result of fit_rig().

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "risorius/scene/unit_reader.h"
@@ -133,22 +134,28 @@ class UnitFit {
 
 }  // namespace
 
-std::map<std::string, rig::UnitGain> fit_units(face::Face& face, const rig::RigDescription& rig,
+std::map<std::string, rig::UnitGain> fit_units(FaceTeam& team, const rig::RigDescription& rig,
                                                const ProgressMonitor& monitor) {
     std::vector<const track::ActionUnit*> units;
     for (const track::ActionUnit& unit : rig.facs.units)
         if (!unit.landmark_targets_mm.empty() && !unit.muscles.empty() &&
             (moved_by_muscles_alone(unit) || moves_channels(unit)))
             units.push_back(&unit);
-    scene::UnitReader reader(face, rig);
+    std::map<const face::Face*, std::unique_ptr<scene::UnitReader>> readers;
+    team.all([&](face::Face& face) {
+        readers.emplace(&face, std::make_unique<scene::UnitReader>(face, rig, kFitTolerance_m));
+    });
+    TaskProgress progress(monitor, static_cast<int>(units.size()));
+    std::vector<rig::UnitGain> gains(units.size());
+    team.each(static_cast<int>(units.size()), [&](int u, face::Face& face) {
+        const track::ActionUnit& unit = *units[static_cast<std::size_t>(u)];
+        progress.begin(unit.id);
+        UnitFit fit(*readers.at(&face), unit, rig.channels());
+        gains[static_cast<std::size_t>(u)] = moves_channels(unit) ? fit.fit_channels() : fit.fit();
+    });
     std::map<std::string, rig::UnitGain> out;
-    std::size_t done = 0;
-    for (const track::ActionUnit* unit : units) {
-        monitor.report(static_cast<double>(done++) / static_cast<double>(units.size()), unit->id);
-        UnitFit fit(reader, *unit, rig.channels());
-        const rig::UnitGain gain = moves_channels(*unit) ? fit.fit_channels() : fit.fit();
-        if (gain.reached > kNothing) out[unit->id] = gain;
-    }
+    for (std::size_t u = 0; u < units.size(); ++u)
+        if (gains[u].reached > kNothing) out[units[u]->id] = gains[u];
     return out;
 }
 

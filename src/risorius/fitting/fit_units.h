@@ -12,14 +12,14 @@
 #include <string>
 
 #include "risorius/core/progress_monitor.h"
-#include "risorius/face/face.h"
+#include "risorius/fitting/face_team.h"
 #include "risorius/rig/rig_description.h"
 
 namespace risorius::fitting {
 
 /// Returns the gain of each unit that has targets and muscles, apart from lids. `rig` holds the units of the table, without gains of a
-/// head. `face` is left in the last pose. Throws Interrupted.
-std::map<std::string, rig::UnitGain> fit_units(face::Face& face, const rig::RigDescription& rig,
+/// head. The faces are left in some pose. Throws Interrupted.
+std::map<std::string, rig::UnitGain> fit_units(FaceTeam& team, const rig::RigDescription& rig,
                                                const ProgressMonitor& monitor);
 
 }  // namespace risorius::fitting

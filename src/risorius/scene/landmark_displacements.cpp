@@ -26,10 +26,15 @@ track::Drive LandmarkDisplacements::drive(const std::string& expression) const {
     return rig::clamped_drive(*expansion, rig_.channels());
 }
 
-Points LandmarkDisplacements::solve_equilibrium(const track::Drive& drive, int iterations) {
+Points LandmarkDisplacements::solve_equilibrium(const track::Drive& drive, int iterations,
+                                                double tolerance_m) {
     face_.start([&](double) { return at_rest_; });
     in_equilibrium_ =
-        face_.solve_equilibrium(drive.excitation, drive, {.iterations = iterations}).converged;
+        face_
+            .solve_equilibrium(
+                drive.excitation, drive,
+                {.iterations = iterations, .tolerance_m = tolerance_m, .planes_m = tolerance_m})
+            .converged;
     const Points vertices = face_.pose().vertices;
     Points out(static_cast<long>(ids_.size()), 3);
     for (std::size_t i = 0; i < ids_.size(); ++i)

@@ -31,7 +31,9 @@ class LandmarkDisplacements {
     track::Drive drive(const std::string& expression) const;
     /// Solves the equilibrium of the face under the drive, from rest, and returns the displacements of landmarks(): n x 3, m, at
     /// the size of the atlas head.
-    Points solve_equilibrium(const track::Drive& drive, int iterations = face::kRestIterations);
+    /// `tolerance_m`: of the equilibrium, see StaticOptions.
+    Points solve_equilibrium(const track::Drive& drive, int iterations = face::kRestIterations,
+                             double tolerance_m = face::StaticOptions{}.tolerance_m);
     /// Whether the last call of solve_equilibrium() reached equilibrium.
     bool in_equilibrium() const { return in_equilibrium_; }
 

@@ -24,9 +24,10 @@ double along(const std::vector<LandmarkReading>& landmarks) {
 
 }  // namespace
 
-UnitReader::UnitReader(face::Face& face, const rig::RigDescription& rig)
+UnitReader::UnitReader(face::Face& face, const rig::RigDescription& rig, double tolerance_m)
     : face_(face),
       rig_(rig),
+      tolerance_m_(tolerance_m),
       points_(face.head(), rig),
       skin_(face, rig),
       channels_(rig.channels()) {
@@ -128,9 +129,12 @@ double UnitReader::uneven_mm(const UnitReading& reading, const Points& from) con
 UnitReader::Pose UnitReader::pose(const track::Expansion& sum) {
     const track::Drive drive = rig::clamped_drive(sum, channels_);
     face_.start([&](double) { return rest_; });
-    const bool converged =
-        face_.solve_equilibrium(drive.excitation, drive, {.iterations = face::kRestIterations})
-            .converged;
+    const bool converged = face_
+                               .solve_equilibrium(drive.excitation, drive,
+                                                  {.iterations = face::kRestIterations,
+                                                   .tolerance_m = tolerance_m_,
+                                                   .planes_m = tolerance_m_})
+                               .converged;
     return {face_.pose(), converged};
 }
 

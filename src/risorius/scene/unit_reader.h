@@ -64,8 +64,9 @@ struct UnitReading {
 /// Reads the units of one face. The face is left in the last pose.
 class UnitReader {
   public:
-    /// Both must outlive this object.
-    UnitReader(face::Face& face, const rig::RigDescription& rig);
+    /// Both must outlive this object. `tolerance_m`: of the equilibria, see StaticOptions.
+    UnitReader(face::Face& face, const rig::RigDescription& rig,
+               double tolerance_m = face::StaticOptions{}.tolerance_m);
 
     const Points& neutral() const { return neutral_.vertices; }  ///< V x 3, m
     const face::FacePose& neutral_pose() const { return neutral_; }
@@ -93,6 +94,7 @@ class UnitReader {
 
     face::Face& face_;
     const rig::RigDescription& rig_;
+    double tolerance_m_;
     LandmarkPoints points_;
     SkinReader skin_;
     track::ChannelTable channels_;

@@ -67,6 +67,8 @@ struct FaceImpl {
     long done = 0;         ///< substeps since start()
     bool in_step = false;  ///< the state comes from a substep, not from an equilibrium
     std::vector<StepStats> history;
+    std::vector<double> built_f0_n;          ///< of each fibre; empty until a strength is changed
+    std::map<std::string, double> strength;  ///< factors of Calibration::set_strength()
     std::optional<muscle::ActivationDynamics> dynamics;
     track::ChannelTable channels;
     MuscleSurfaces surfaces;

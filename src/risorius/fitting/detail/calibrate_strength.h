@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "risorius/core/progress_monitor.h"
-#include "risorius/face/face.h"
+#include "risorius/fitting/face_team.h"
 #include "risorius/rig/rig_description.h"
 
 namespace risorius::fitting {
@@ -28,9 +28,10 @@ struct MuscleStrength {
     bool converged = true;  ///< whether the last trial reached equilibrium
 };
 
-/// Calibrates the muscles of the rig's bands one after the other, each alone, by the secant method. A muscle may be a bundle of
-/// fibres or a solid. `face` keeps the strengths that were found. Throws Interrupted when the monitor asks to stop.
-std::vector<MuscleStrength> calibrate_strength(face::Face& face, const rig::RigDescription& rig,
+/// Calibrates the muscles of the rig's bands, each alone while the others have the strengths of the rig, by the secant method. A muscle
+/// may be a bundle of fibres or a solid. All faces keep the strengths that were found. Throws Interrupted when the monitor asks to
+/// stop.
+std::vector<MuscleStrength> calibrate_strength(FaceTeam& team, const rig::RigDescription& rig,
                                                const ProgressMonitor& monitor);
 
 }  // namespace risorius::fitting

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <memory>
 #include <set>
 
 #include "risorius/core/error.h"
@@ -26,38 +28,114 @@ constexpr double kIdle = 0.02;  // less active muscles hardly show in an express
 
 constexpr auto kPressure = static_cast<std::size_t>(track::Kinematic::kMouthPressure);
 
-class Fit {
+/// A face, and the numbers that it has at present.
+class Player {
   public:
-    Fit(face::Face& face, const rig::RigDescription& rig, const scene::DisplacementTable& standard,
-        const StrengthFitOptions& options, const std::string& place, const ProgressMonitor& monitor)
-        : face_(face),
-          channels_(rig.channels()),
-          ways_(face, rig, place),
-          options_(options),
-          monitor_(monitor),
-          lips_(rig.lips) {
-        std::set<std::string> seen;
-        for (const rig::MuscleBand& band : rig.atlas.bands)
-            if (seen.insert(band.muscle).second) muscles_.push_back(band.muscle);
+    Player(face::Face& face, const rig::RigDescription& rig, const std::string& place,
+           const std::vector<std::string>& muscles)
+        : ways(face, rig, place), face_(face), muscles_(muscles), lips_(rig.lips) {
+        for (const std::string& muscle : muscles)
+            strength_.push_back(face.calibration().strength(muscle));
         for (double* ratio : {&lips_.upper_turn, &lips_.lower_turn, &lips_.upper_push,
                               &lips_.lower_push, &lips_.puff})
             lip_ratios_.push_back({ratio, *ratio});
         z_ = Eigen::VectorXd::Zero(static_cast<long>(muscles_.size() + lip_ratios_.size()));
+    }
+
+    const Eigen::VectorXd& z() const { return z_; }
+    const rig::LipsDescription& lips() const { return lips_; }
+    void set(const Eigen::VectorXd& z) {
+        for (long i = 0; i < z.size(); ++i) set(i, z[i]);
+    }
+    void set(long i, double value) {
+        if (value == z_[i]) return;
+        const auto muscles = static_cast<long>(muscles_.size());
+        if (i < muscles) {
+            const auto m = static_cast<std::size_t>(i);
+            face_.calibration().set_strength(muscles_[m], strength_[m] * std::exp(value));
+        } else {
+            auto& [ratio, first] = lip_ratios_[static_cast<std::size_t>(i - muscles)];
+            *ratio = first * std::exp(value);
+            face_.calibration().scale_lips(lips_);
+        }
+        z_[i] = value;
+    }
+    /// The drive of the table with the pressure that puffs this head.
+    track::Drive scaled(track::Drive drive) const {
+        drive.kinematic[kPressure] *= std::exp(z_[z_.size() - 1]);
+        return drive;
+    }
+    Eigen::MatrixXd slopes(const track::Drive& drive, const std::vector<char>& works);
+
+    scene::LandmarkDisplacements ways;
+
+  private:
+    face::Face& face_;
+    const std::vector<std::string>& muscles_;
+    std::vector<double> strength_;
+    rig::LipsDescription lips_;
+    std::vector<std::pair<double*, double>> lip_ratios_;  // and their previous values
+    Eigen::VectorXd z_;
+};
+
+// d(displacements)/dz in the current equilibrium, in the memory order of Points. `works`: whether a number of z changes anything.
+Eigen::MatrixXd Player::slopes(const track::Drive& drive, const std::vector<char>& works) {
+    const Points nodes = face_.statics().nodes();
+    std::vector<Points> force;
+    for (long i = 0; i < z_.size(); ++i) {
+        if (!works[static_cast<std::size_t>(i)]) {
+            force.emplace_back();
+            continue;
+        }
+        const double at = z_[i];
+        set(i, at + kDifference);
+        const Points more = face_.statics().gradient(nodes, drive.excitation, scaled(drive));
+        set(i, at - kDifference);
+        const Points less = face_.statics().gradient(nodes, drive.excitation, scaled(drive));
+        force.push_back((more - less) / (2 * kDifference));
+        set(i, at);
+    }
+    const long count = static_cast<long>(ways.landmarks().size());
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * count, z_.size());
+    for (long i = 0; i < z_.size(); ++i) {
+        if (force[static_cast<std::size_t>(i)].size() == 0) continue;
+        const Points moved = face_.statics().solve(-force[static_cast<std::size_t>(i)]);
+        Points moves = Points::Zero(count, 3);
+        for (long k = 0; k < count; ++k) {
+            const int v = face_.diagnostics().shell().collapsed_to[static_cast<std::size_t>(
+                ways.vertex(static_cast<std::size_t>(k)))];
+            if (v >= 0) moves.row(k) = moved.row(face::node_of(v, face::kSkin)) / face_.head().size;
+        }
+        out.col(i) = Eigen::Map<const Eigen::VectorXd>(moves.data(), moves.size());
+    }
+    return out;
+}
+
+class Fit {
+  public:
+    Fit(FaceTeam& team, const rig::RigDescription& rig, const scene::DisplacementTable& standard,
+        const StrengthFitOptions& options, const std::string& place, const ProgressMonitor& monitor)
+        : team_(team), channels_(rig.channels()), options_(options), monitor_(monitor) {
+        std::set<std::string> seen;
+        for (const rig::MuscleBand& band : rig.atlas.bands)
+            if (seen.insert(band.muscle).second) muscles_.push_back(band.muscle);
+        team.all([&](face::Face& face) {
+            players_.emplace(&face, std::make_unique<Player>(face, rig, place, muscles_));
+        });
+        z_ = first().z();
         keep_ = Eigen::VectorXd::Constant(z_.size(), options.keep);
-        for (std::size_t i = 0; i < lip_ratios_.size(); ++i)
-            if (lip_ratios_[i].first == &lips_.lower_push)
-                keep_[static_cast<long>(muscles_.size() + i)] = options.keep_lower_push;
+        keep_[z_.size() - 2] = options.keep_lower_push;
+        const std::vector<std::string>& landmarks = first().ways.landmarks();
         for (const auto& [name, table] : standard) {
-            Points goal(static_cast<long>(ways_.landmarks().size()), 3);
-            for (std::size_t i = 0; i < ways_.landmarks().size(); ++i) {
-                const auto way = table.find(ways_.landmarks()[i]);
+            Points goal(static_cast<long>(landmarks.size()), 3);
+            for (std::size_t i = 0; i < landmarks.size(); ++i) {
+                const auto way = table.find(landmarks[i]);
                 if (way == table.end())
-                    throw Error("ways of \"" + name + "\"", "landmark " + ways_.landmarks()[i],
-                                "none");
+                    throw Error("ways of \"" + name + "\"", "landmark " + landmarks[i], "none");
                 goal.row(static_cast<long>(i)) = way->second.transpose();
             }
             if (goal.isZero(0.0)) continue;
-            expressions_.push_back({name, ways_.drive(name), goal});
+            expressions_.push_back({name, first().ways.drive(name), goal});
         }
     }
 
@@ -90,7 +168,7 @@ class Fit {
         set(best);
         for (std::size_t m = 0; m < muscles_.size(); ++m)
             out.factor[muscles_[m]] = std::exp(best[static_cast<long>(m)]);
-        out.lips = lips_;
+        out.lips = first().lips();
         return out;
     }
 
@@ -101,21 +179,16 @@ class Fit {
         Points goal;
     };
 
+    /// An expression as it is, and the part of the model that it adds.
+    struct Looked {
+        double cost, ratio;
+        solve::BoxQuadratic model;
+    };
+
+    Player& first() const { return *players_.at(&team_.first()); }
     void set(const Eigen::VectorXd& z) {
-        for (long i = 0; i < z.size(); ++i) set(i, z[i]);
-    }
-    void set(long i, double value) {
-        if (value == z_[i]) return;
-        const auto muscles = static_cast<long>(muscles_.size());
-        if (i < muscles) {
-            face_.calibration().scale_muscle(muscles_[static_cast<std::size_t>(i)],
-                                             std::exp(value - z_[i]));
-        } else {
-            auto& [ratio, first] = lip_ratios_[static_cast<std::size_t>(i - muscles)];
-            *ratio = first * std::exp(value);
-            face_.calibration().scale_lips(lips_);
-        }
-        z_[i] = value;
+        for (const auto& [face, player] : players_) player->set(z);
+        z_ = z;
     }
 
     // Objective and mean difference at z. `model`: receives the quadratic model about z.
@@ -125,40 +198,59 @@ class Fit {
             model->A = keep_.asDiagonal();
             model->b = model->l1_weight = Eigen::VectorXd::Zero(z_.size());
         }
-        for (std::size_t e = 0; e < expressions_.size(); ++e) {
-            const Expression& one = expressions_[e];
-            monitor_.report(
-                (round + static_cast<double>(e) / static_cast<double>(expressions_.size())) /
-                    (options_.rounds + 1),
-                one.name);
-            const Points miss = ways_.solve_equilibrium(scaled(one.drive), kIterations) - one.goal;
-            const double length = one.goal.norm(), ratio = miss.norm() / length;
-            const Eigen::VectorXd r = Eigen::Map<const Eigen::VectorXd>(miss.data(), miss.size());
-            const Points way = miss + one.goal;
-            const Eigen::VectorXd u = Eigen::Map<const Eigen::VectorXd>(way.data(), way.size());
-            const double longer = u.norm() / length - 1;
-            cost += ratio + options_.length * std::abs(longer);
-            sum += ratio / static_cast<double>(expressions_.size());
+        const auto count = static_cast<int>(expressions_.size());
+        const ProgressMonitor part =
+            monitor_.subrange(static_cast<double>(round) / (options_.rounds + 1),
+                              static_cast<double>(round + 1) / (options_.rounds + 1));
+        TaskProgress progress(part, count);
+        std::vector<Looked> looked(expressions_.size());
+        team_.each(count, [&](int e, face::Face& face) {
+            const Expression& one = expressions_[static_cast<std::size_t>(e)];
+            progress.begin(one.name);
+            looked[static_cast<std::size_t>(e)] =
+                look_at(one, *players_.at(&face), model != nullptr);
+        });
+        for (const Looked& one : looked) {
+            cost += one.cost;
+            sum += one.ratio / static_cast<double>(count);
             if (model == nullptr) continue;
-            const Eigen::MatrixXd J = slopes(one.drive);
-            const double weight = 1 / (length * length * std::max(ratio, kMinRatio));
-            model->A += weight * (J.transpose() * J);
-            model->b += weight * (J.transpose() * (r - J * z_));
-            if (!(u.norm() > 0)) continue;
-            const Eigen::VectorXd slope = J.transpose() * u / (u.norm() * length);
-            const double heavy = options_.length / std::max(std::abs(longer), kMinRatio);
-            model->A += heavy * slope * slope.transpose();
-            model->b += heavy * slope * (longer - slope.dot(z_));
+            model->A += one.model.A;
+            model->b += one.model.b;
         }
         return {cost, sum};
     }
 
-    // The drive of the table with the pressure that puffs this head.
-    track::Drive scaled(track::Drive drive) const {
-        drive.kinematic[kPressure] *= std::exp(z_[z_.size() - 1]);
-        return drive;
+    Looked look_at(const Expression& one, Player& player, bool with_model) const {
+        Looked out;
+        const Points miss =
+            player.ways.solve_equilibrium(player.scaled(one.drive), kIterations, kFitTolerance_m) -
+            one.goal;
+        const double length = one.goal.norm();
+        out.ratio = miss.norm() / length;
+        const Eigen::VectorXd r = Eigen::Map<const Eigen::VectorXd>(miss.data(), miss.size());
+        const Points way = miss + one.goal;
+        const Eigen::VectorXd u = Eigen::Map<const Eigen::VectorXd>(way.data(), way.size());
+        const double longer = u.norm() / length - 1;
+        out.cost = out.ratio + options_.length * std::abs(longer);
+        if (!with_model) return out;
+        const Eigen::MatrixXd J = player.slopes(one.drive, works(one.drive));
+        const double weight = 1 / (length * length * std::max(out.ratio, kMinRatio));
+        out.model.A = weight * (J.transpose() * J);
+        out.model.b = weight * (J.transpose() * (r - J * z_));
+        if (!(u.norm() > 0)) return out;
+        const Eigen::VectorXd slope = J.transpose() * u / (u.norm() * length);
+        const double heavy = options_.length / std::max(std::abs(longer), kMinRatio);
+        out.model.A += heavy * slope * slope.transpose();
+        out.model.b += heavy * slope * (longer - slope.dot(z_));
+        return out;
     }
 
+    // For each number of z whether it changes what the drive does.
+    std::vector<char> works(const track::Drive& drive) const {
+        std::vector<char> out;
+        for (long i = 0; i < z_.size(); ++i) out.push_back(works(i, drive));
+        return out;
+    }
     bool works(long i, const track::Drive& drive) const {
         const auto muscles = static_cast<long>(muscles_.size());
         if (i == z_.size() - 1) return drive.kinematic[kPressure] != 0;
@@ -177,62 +269,26 @@ class Fit {
         return false;
     }
 
-    // d(displacements)/dz in the current equilibrium, in the memory order of Points.
-    Eigen::MatrixXd slopes(const track::Drive& drive) {
-        const Points nodes = face_.statics().nodes();
-        std::vector<Points> force;
-        for (long i = 0; i < z_.size(); ++i) {
-            if (!works(i, drive)) {
-                force.emplace_back();
-                continue;
-            }
-            const double at = z_[i];
-            set(i, at + kDifference);
-            const Points more = face_.statics().gradient(nodes, drive.excitation, scaled(drive));
-            set(i, at - kDifference);
-            const Points less = face_.statics().gradient(nodes, drive.excitation, scaled(drive));
-            force.push_back((more - less) / (2 * kDifference));
-            set(i, at);
-        }
-        const long count = static_cast<long>(ways_.landmarks().size());
-        Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * count, z_.size());
-        for (long i = 0; i < z_.size(); ++i) {
-            if (force[static_cast<std::size_t>(i)].size() == 0) continue;
-            const Points moved = face_.statics().solve(-force[static_cast<std::size_t>(i)]);
-            Points ways = Points::Zero(count, 3);
-            for (long k = 0; k < count; ++k) {
-                const int v = face_.diagnostics().shell().collapsed_to[static_cast<std::size_t>(
-                    ways_.vertex(static_cast<std::size_t>(k)))];
-                if (v >= 0)
-                    ways.row(k) = moved.row(face::node_of(v, face::kSkin)) / face_.head().size;
-            }
-            out.col(i) = Eigen::Map<const Eigen::VectorXd>(ways.data(), ways.size());
-        }
-        return out;
-    }
-
-    face::Face& face_;
+    FaceTeam& team_;
     const track::ChannelTable channels_;
-    scene::LandmarkDisplacements ways_;
     const StrengthFitOptions options_;
     const ProgressMonitor& monitor_;
     std::vector<std::string> muscles_;
-    rig::LipsDescription lips_;
-    std::vector<std::pair<double*, double>> lip_ratios_;  // and their previous values
+    std::map<const face::Face*, std::unique_ptr<Player>> players_;
     std::vector<Expression> expressions_;
     Eigen::VectorXd z_, keep_;
 };
 
 }  // namespace
 
-StrengthFit fit_strengths(face::Face& face, const rig::RigDescription& rig,
+StrengthFit fit_strengths(FaceTeam& team, const rig::RigDescription& rig,
                           const scene::DisplacementTable& standard,
                           const StrengthFitOptions& options, const std::string& place,
                           const ProgressMonitor& monitor) {
-    StrengthFit out = Fit(face, rig, standard, options, place, monitor).run();
+    StrengthFit out = Fit(team, rig, standard, options, place, monitor).run();
     track::Drive rest;
     rest.excitation = Eigen::VectorXd::Zero(rig.channels().column_count());
-    face.start([&](double) { return rest; });
+    team.all([&](face::Face& face) { face.start([&](double) { return rest; }); });
     return out;
 }
 

@@ -518,10 +518,12 @@ void MuscleSolids::precondition(const solve::SparseCholesky& tissue, const Point
     y.bottomRows(nodes()) = solid_y_;
 }
 
-void MuscleSolids::scale_strength(const std::string& muscle, double factor) {
-    for (Part& part : parts_)
-        if (part.place.muscle->id == muscle)
-            part.chains->set_f0(factor * part.chains->properties().f0_n);
+void MuscleSolids::set_strength(const std::string& muscle, double factor) {
+    for (Part& part : parts_) {
+        if (part.place.muscle->id != muscle) continue;
+        if (part.built_f0_n == 0) part.built_f0_n = part.chains->properties().f0_n;
+        part.chains->set_f0(factor * part.built_f0_n);
+    }
     forget();
 }
 

@@ -98,8 +98,8 @@ class MuscleSolids {
     /// Applies the preconditioner to b, one row per unknown, and writes y. `tissue` is the factor of the matrix of the tissue's nodes.
     void precondition(const solve::SparseCholesky& tissue, const Points& b, Points& y) const;
 
-    /// Multiplies the maximum isometric force of a muscle, both sides.
-    void scale_strength(const std::string& muscle, double factor);
+    /// Sets the maximum isometric force of a muscle, both sides, to `factor` times that of the start.
+    void set_strength(const std::string& muscle, double factor);
     double mean_stretch(const std::string& muscle, const Points& x,
                         const Eigen::VectorXd& activation) const;
     /// Returns the chains of one side of a muscle; none for a muscle that is no volume muscle.
@@ -134,6 +134,7 @@ class MuscleSolids {
         SolidPart place;
         std::unique_ptr<tissue::CellSolid> cells;
         std::unique_ptr<muscle::ChainSet> chains;
+        double built_f0_n = 0;  ///< of the start; 0 until the strength is changed
         std::unique_ptr<solve::HessianBuilder> hessian;  ///< over its own nodes
         Points rest, start;
         mutable Points x, gradient;
