@@ -191,7 +191,7 @@ void SupernodalCholesky::Impl::Values<Real>::solve(const Impl& own, const double
                                                    double* x) const {
     const std::size_t n = own.order.size();
     right.resize(n);
-    gathered.resize(own.tallest);
+    gathered.resize(own.tallest + detail::kReadBeyond);
     Real* const w = gathered.data();
     for (std::size_t i = 0; i < n; ++i) right[i] = static_cast<Real>(b[own.order[i]]);
     for (int s = 0; s < own.panels(); ++s) {

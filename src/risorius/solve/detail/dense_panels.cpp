@@ -50,6 +50,27 @@ void tile(const Real* a, int a_stride, const Real* b, int b_stride, int k, Real*
     }
 }
 
+/// Subtracts w[j] times column j, and so on, from the rows of w below the panel's own.
+template <int Columns, class Real>
+void subtract_columns(const Real* panel, int tall, int width, int j, Real* w) {
+    constexpr int kWidth = LanesOf<Real>::kWidth;
+    const Real* const own = panel + static_cast<long>(j) * tall;
+    for (int i = width; i < tall; i += kWidth) {
+        Lane<Real> sum = load(w + i);
+        for (int c = 0; c < Columns; ++c)
+            sum -= w[j + c] * load(own + static_cast<long>(c) * tall + i);
+        store(w + i, sum);
+    }
+}
+
+/// Sum of the lanes, in a fixed order.
+double sum_of(const Lanes& a) { return sum_lanes(a); }
+float sum_of(const FloatLanes& a) {
+    const FloatPoint half =
+        __builtin_shufflevector(a, a, 0, 1, 2, 3) + __builtin_shufflevector(a, a, 4, 5, 6, 7);
+    return (half[0] + half[1]) + (half[2] + half[3]);
+}
+
 }  // namespace
 
 template <class Real>
@@ -113,32 +134,23 @@ void eliminate(const Real* panel, int tall, int width, Real* w) {
     }
     // The rows below, by three columns at a time
     int j = 0;
-    for (; j + 3 <= width; j += 3) {
-        const Real* const own = panel + static_cast<long>(j) * tall;
-        const Real *const second = own + tall, *const third = second + tall;
-        const Real x = w[j], y = w[j + 1], z = w[j + 2];
-        for (int i = width; i < tall; ++i) w[i] -= x * own[i] + y * second[i] + z * third[i];
-    }
-    for (; j < width; ++j) {
-        const Real* const own = panel + static_cast<long>(j) * tall;
-        const Real x = w[j];
-        for (int i = width; i < tall; ++i) w[i] -= x * own[i];
-    }
+    for (; j + 3 <= width; j += 3) subtract_columns<3>(panel, tall, width, j, w);
+    for (; j < width; ++j) subtract_columns<1>(panel, tall, width, j, w);
 }
 
 template <class Real>
 void substitute(const Real* panel, int tall, int width, Real* w) {
     constexpr int kWidth = LanesOf<Real>::kWidth;
+    std::fill(w + tall, w + tall + 2 * kWidth,
+              Real(0));  // what is read beyond the panel counts nothing
     for (int j = width - 1; j >= 0; --j) {
         const Real* const own = panel + static_cast<long>(j) * tall;
-        Lane<Real> sums{};
-        int i = j + 1;
-        for (; i + kWidth <= tall; i += kWidth) sums += load(own + i) * load(w + i);
-        Lanes total{};
-        add_lanes(total, sums);
-        Real sum = static_cast<Real>(sum_lanes(total));
-        for (; i < tall; ++i) sum += own[i] * w[i];
-        w[j] = (w[j] - sum) / own[j];
+        Lane<Real> even{}, odd{};
+        for (int i = j + 1; i < tall; i += 2 * kWidth) {
+            even += load(own + i) * load(w + i);
+            odd += load(own + i + kWidth) * load(w + i + kWidth);
+        }
+        w[j] = (w[j] - sum_of(even + odd)) / own[j];
     }
 }
 

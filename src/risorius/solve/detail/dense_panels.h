@@ -8,7 +8,8 @@
 
 namespace risorius::solve::detail {
 
-/// Entries that must be readable after the last one of `a` in product(). Nothing is computed from them.
+/// Entries that must be readable after the last one of a panel, and after the `tall` rows of w. They must be finite; no result depends
+/// on them.
 inline constexpr int kReadBeyond = 16;
 
 /// Returns the number of rows that C has in memory when m of them are wanted.
@@ -28,12 +29,12 @@ bool factorise_panel(Real* panel, int tall, int width, std::vector<Real>& scratc
 
 /// Forward substitution with one panel. On entry, w has the right-hand side in the first `width` rows and zeros below. On
 /// return, it has the solution in these rows, and below them the numbers to subtract from the right-hand side of the other
-/// rows.
+/// rows. kReadBeyond rows of w after them are overwritten.
 template <class Real>
 void eliminate(const Real* panel, int tall, int width, Real* w);
 
 /// Backward substitution with one panel. On entry, w has the right-hand side in the first `width` rows and the solution in the
-/// rows below. On return, it has the solution in all rows.
+/// rows below. On return, it has the solution in all rows. kReadBeyond rows of w after them are overwritten.
 template <class Real>
 void substitute(const Real* panel, int tall, int width, Real* w);
 

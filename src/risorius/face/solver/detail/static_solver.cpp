@@ -90,17 +90,24 @@ struct StaticSolver::Linear {
     solve::SupernodalCholesky factor;
     /// H with the pattern of lips that touch at rest: every search that forgot starts with it.
     std::optional<solve::HessianBuilder> first;
+    std::vector<std::pair<int, int>> near;  ///< nodes of lips that are near at rest, sorted
     explicit Linear(const FaceTissue& tissue)
-        : hessian(static_cast<int>(tissue.rest().rows()), tissue.fixed()) {}
+        : hessian(static_cast<int>(tissue.rest().rows()), tissue.fixed()) {
+        for (const auto& [a, b] : tissue.neighbours_across_lips())
+            near.emplace_back(std::min(a, b), std::max(a, b));
+        std::sort(near.begin(), near.end());
+        near.erase(std::unique(near.begin(), near.end()), near.end());
+    }
 };
 
 StaticSolver::StaticSolver(FaceTissue& tissue)
-    : tissue_(tissue), linear_(std::make_unique<Linear>(tissue)) {}
+    : tissue_(tissue), linear_(std::make_unique<Linear>(tissue)), touched_(linear_->near) {}
 StaticSolver::~StaticSolver() = default;
 
 void StaticSolver::forget() {
     known_ = false;
-    touched_.clear();  // the pattern, and with it the last bits, depends on former contacts
+    // The pattern, and with it the last bits, depends on former contacts
+    touched_ = linear_->near;
     if (linear_->first) linear_->hessian = *linear_->first;
 }
 
@@ -118,8 +125,7 @@ void StaticSolver::order(const Points& x, const Eigen::VectorXd& activation) {
     const auto found = tissue_.exchange_contacts({});
     linear_->hessian.clear();
     tissue_.add_static_hessian(x, activation, solve::Curvature::kPositive, linear_->hessian);
-    for (const auto& [a, b] : tissue_.neighbours_across_lips())
-        linear_->hessian.add(std::min(a, b), std::max(a, b), Mat3::Zero());
+    for (const auto& [a, b] : linear_->near) linear_->hessian.add(a, b, Mat3::Zero());
     linear_->factor.order_like(linear_->hessian.build(), 3);
     linear_->first = linear_->hessian;
     tissue_.exchange_contacts(found);
