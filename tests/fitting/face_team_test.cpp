@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Faces that share the tasks of a fit: the result is that of one face, and a task that fails leaves its face to the others.
-#include "risorius/fitting/face_team.h"
+#include "risorius/face/face_team.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ TEST(FaceTeam, FindsTheSameStrengthsAsOneFace) {
                band.muscle != "frontalis_medial" && band.muscle != "mentalis";
     });
     face::Face alone = small_face(), first = small_face();
-    FaceTeam one(alone), two(first, small_face, 2);
+    face::FaceTeam one(alone), two(first, small_face, 2);
     const std::vector<MuscleStrength> wanted = calibrate_strength(one, rig, {});
     const std::vector<MuscleStrength> found = calibrate_strength(two, rig, {});
     ASSERT_EQ(wanted.size(), 4u);
@@ -46,7 +46,7 @@ TEST(FaceTeam, FindsTheSameStrengthsAsOneFace) {
 
 TEST(FaceTeam, GoesOnAfterATaskThatFailed) {
     face::Face first = small_face();
-    FaceTeam team(first, small_face, 2);
+    face::FaceTeam team(first, small_face, 2);
     EXPECT_THROW(team.each(1, [](int, face::Face&) { throw std::runtime_error("no"); }),
                  std::runtime_error);
     std::atomic<int> done = 0;

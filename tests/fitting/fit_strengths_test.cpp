@@ -39,7 +39,7 @@ TEST(FitStrengths, FindsAgainWhatAMuscleAndALipHadBeforeTheyWereSpoilt) {
     spoilt.lips.upper_push *= kFarther;
 
     face::Face face = face_of(spoilt);
-    FaceTeam team(face);
+    face::FaceTeam team(face);
     const StrengthFit fit = fit_strengths(team, spoilt, goal, {.keep = 1e-4}, "adult", {});
     EXPECT_GT(fit.difference_before, 0.15);
     EXPECT_LT(fit.difference, 0.03);
@@ -51,7 +51,7 @@ TEST(FitStrengths, FindsAgainWhatAMuscleAndALipHadBeforeTheyWereSpoilt) {
 
 TEST(FitStrengths, NeedsAWayForEveryLandmarkItCompares) {
     face::Face face = face_of(scene::adult_of_bundles().rig);
-    FaceTeam team(face);
+    face::FaceTeam team(face);
     try {
         fit_strengths(team, scene::adult_of_bundles().rig,
                       {{"mouthSmile", {{"ch_l", Vec3::Zero()}}}}, {}, "adult", {});

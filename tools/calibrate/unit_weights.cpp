@@ -206,7 +206,7 @@ void write_unit_gains(const std::filesystem::path& file) {
     write_file(file, json_text(json, 1) + "\n");
     const scene::RigFiles files = scene::read_rig_files(file);
     face::Face face(files.rig, files.mesh, face::quality_named("preview"), files.place());
-    fitting::FaceTeam team(face);
+    face::FaceTeam team(face);
     for (const auto& [unit, gain] : fitting::fit_units(team, files.rig, {})) {
         std::printf("%-8s muscles %.3f reached %.2f\n", unit.c_str(), gain.muscles, gain.reached);
         json["unit_gains"][unit] = rig::unit_gain_json(gain);

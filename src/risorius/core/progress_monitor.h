@@ -5,6 +5,7 @@
 
 #include <exception>
 #include <functional>
+#include <mutex>
 #include <string>
 
 namespace risorius {
@@ -39,6 +40,23 @@ struct ProgressMonitor {
             };
         return out;
     }
+};
+
+/// Counts the tasks of a run that have begun. Several threads may call begin().
+class TaskProgress {
+  public:
+    TaskProgress(const ProgressMonitor& monitor, int tasks) : monitor_(monitor), tasks_(tasks) {}
+    /// Reports a task. Throws Interrupted when the run should stop.
+    void begin(const std::string& what) {
+        const std::lock_guard lock(mutex_);
+        monitor_.report(static_cast<double>(begun_++) / tasks_, what);
+    }
+
+  private:
+    const ProgressMonitor& monitor_;
+    const int tasks_;
+    int begun_ = 0;
+    std::mutex mutex_;
 };
 
 }  // namespace risorius

@@ -130,7 +130,7 @@ fs::path changed_mesh_file(const fs::path& rig) {
 }
 
 // Calibrates each muscle separately, then all together.
-void scale_muscles(FaceTeam& team, const FitOptions& options, const fs::path& standard,
+void scale_muscles(face::FaceTeam& team, const FitOptions& options, const fs::path& standard,
                    const ProgressMonitor& monitor, rig::RigDescription& rig, FitReport& report) {
     const auto part_of = [&](double begin, double end) {
         ProgressMonitor part = monitor;
@@ -376,7 +376,7 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
 
     // Give every muscle the strength that it needs on this head.
     if (options.calibrate) {
-        FaceTeam team(
+        face::FaceTeam team(
             face,
             [&, same = rig] {
                 return face::Face(same, mesh, face::quality_named("video"), options.out.string());

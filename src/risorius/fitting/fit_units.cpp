@@ -134,7 +134,7 @@ class UnitFit {
 
 }  // namespace
 
-std::map<std::string, rig::UnitGain> fit_units(FaceTeam& team, const rig::RigDescription& rig,
+std::map<std::string, rig::UnitGain> fit_units(face::FaceTeam& team, const rig::RigDescription& rig,
                                                const ProgressMonitor& monitor) {
     std::vector<const track::ActionUnit*> units;
     for (const track::ActionUnit& unit : rig.facs.units)

@@ -12,14 +12,17 @@
 #include <string>
 
 #include "risorius/core/progress_monitor.h"
-#include "risorius/fitting/face_team.h"
+#include "risorius/face/face_team.h"
 #include "risorius/rig/rig_description.h"
 
 namespace risorius::fitting {
 
+/// Tolerance of the equilibria of a fit, m: a thousandth of the way of most landmarks.
+inline constexpr double kFitTolerance_m = 5e-6;
+
 /// Returns the gain of each unit that has targets and muscles, apart from lids. `rig` holds the units of the table, without gains of a
 /// head. The faces are left in some pose. Throws Interrupted.
-std::map<std::string, rig::UnitGain> fit_units(FaceTeam& team, const rig::RigDescription& rig,
+std::map<std::string, rig::UnitGain> fit_units(face::FaceTeam& team, const rig::RigDescription& rig,
                                                const ProgressMonitor& monitor);
 
 }  // namespace risorius::fitting

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/blendshapes/detail/shape_solver.h"
 
-#include "risorius/core/parallel.h"
+#include <utility>
+
 #include "risorius/face/diagnostics.h"
 
 namespace risorius::blendshapes {
@@ -32,30 +33,17 @@ track::Drive scaled(track::Drive drive, double fraction) {
 }  // namespace
 
 ShapeSolver::ShapeSolver(const scene::RigFiles& files, const face::Quality& quality, int threads)
-    : files_(files), quality_(quality), threads_(threads) {
-    faces_.push_back(another());
-    idle_.push_back(faces_.front().get());
+    : files_(files),
+      quality_(quality),
+      first_(another()),
+      team_(std::make_unique<face::FaceTeam>(
+          *first_, [this] { return std::move(*another()); }, threads)) {
     rest_volume_m3_ = face().diagnostics().tissue_volume_m3();
 }
 ShapeSolver::~ShapeSolver() = default;
 
 std::unique_ptr<face::Face> ShapeSolver::another() const {
     return std::make_unique<face::Face>(files_.rig, files_.mesh, quality_, files_.place());
-}
-
-face::Face& ShapeSolver::idle() const {
-    {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        if (!idle_.empty()) {
-            face::Face* out = idle_.back();
-            idle_.pop_back();
-            return *out;
-        }
-    }
-    std::unique_ptr<face::Face> made = another();
-    const std::lock_guard<std::mutex> lock(mutex_);
-    faces_.push_back(std::move(made));
-    return *faces_.back();
 }
 
 SolvedPose ShapeSolver::pose(face::Face& face, const track::Drive& drive, const Approach& how,
@@ -89,22 +77,11 @@ std::vector<SolvedPose> ShapeSolver::solve(const std::vector<track::Drive>& driv
                                            const ProgressMonitor& monitor,
                                            const Approach& how) const {
     std::vector<SolvedPose> out(drives.size());
-    std::mutex telling;
-    std::size_t done = 0;
-    SpareThreads spare(ThreadLimit(threads_).count() - 1);
-    parallel_for(static_cast<int>(drives.size()), {threads_, &spare}, [&](int i) {
-        monitor.throw_if_stopped();
-        // The face is reset to rest, so its previous use does not matter.
-        face::Face& face = idle();
+    TaskProgress progress(monitor, static_cast<int>(drives.size()));
+    team_->each(static_cast<int>(drives.size()), [&](int i, face::Face& face) {
+        progress.begin("poses");
         const auto at = static_cast<std::size_t>(i);
         out[at] = pose(face, drives[at], how, monitor.stopped);
-        {
-            const std::lock_guard<std::mutex> lock(mutex_);
-            idle_.push_back(&face);
-        }
-        const std::lock_guard<std::mutex> lock(telling);
-        ++done;
-        monitor.report(static_cast<double>(done) / static_cast<double>(drives.size()), "poses");
     });
     return out;
 }

@@ -7,11 +7,11 @@
 #include <array>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "risorius/core/progress_monitor.h"
 #include "risorius/face/face.h"
+#include "risorius/face/face_team.h"
 #include "risorius/scene/rig_files.h"
 #include "risorius/track/channels.h"
 
@@ -44,7 +44,7 @@ class ShapeSolver {
                                   const ProgressMonitor& monitor, const Approach& how = {}) const;
 
     /// Returns a face for reading properties that no pose changes. The face is also used to solve poses.
-    const face::Face& face() const { return *faces_.front(); }
+    const face::Face& face() const { return *first_; }
 
     /// A new face that the caller owns.
     std::unique_ptr<face::Face> another() const;
@@ -52,16 +52,12 @@ class ShapeSolver {
   private:
     SolvedPose pose(face::Face& face, const track::Drive& drive, const Approach& how,
                     const std::function<bool()>& stopped) const;
-    face::Face& idle() const;  ///< a face that is not in use; makes one if needed
 
     const scene::RigFiles& files_;
     face::Quality quality_;
-    int threads_;
+    std::unique_ptr<face::Face> first_;
+    std::unique_ptr<face::FaceTeam> team_;
     double rest_volume_m3_;
-    mutable std::mutex mutex_;
-    /// All faces made so far; at least one
-    mutable std::vector<std::unique_ptr<face::Face>> faces_;
-    mutable std::vector<face::Face*> idle_;
 };
 
 }  // namespace risorius::blendshapes

@@ -6,6 +6,7 @@
 
 #include "risorius/face/calibration.h"
 #include "risorius/face/diagnostics.h"
+#include "risorius/fitting/fit_units.h"
 
 namespace risorius::fitting {
 
@@ -57,7 +58,7 @@ void calibrate(face::Face& face, const track::ChannelTable& channels, MuscleStre
 
 }  // namespace
 
-std::vector<MuscleStrength> calibrate_strength(FaceTeam& team, const rig::RigDescription& rig,
+std::vector<MuscleStrength> calibrate_strength(face::FaceTeam& team, const rig::RigDescription& rig,
                                                const ProgressMonitor& monitor) {
     std::vector<MuscleStrength> out;
     for (const rig::MuscleBand& band : rig.atlas.bands)

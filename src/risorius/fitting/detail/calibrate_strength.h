@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "risorius/core/progress_monitor.h"
-#include "risorius/fitting/face_team.h"
+#include "risorius/face/face_team.h"
 #include "risorius/rig/rig_description.h"
 
 namespace risorius::fitting {
@@ -31,7 +31,7 @@ struct MuscleStrength {
 /// Calibrates the muscles of the rig's bands, each alone while the others have the strengths of the rig, by the secant method. A muscle
 /// may be a bundle of fibres or a solid. All faces keep the strengths that were found. Throws Interrupted when the monitor asks to
 /// stop.
-std::vector<MuscleStrength> calibrate_strength(FaceTeam& team, const rig::RigDescription& rig,
+std::vector<MuscleStrength> calibrate_strength(face::FaceTeam& team, const rig::RigDescription& rig,
                                                const ProgressMonitor& monitor);
 
 }  // namespace risorius::fitting

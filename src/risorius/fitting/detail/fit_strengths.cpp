@@ -13,6 +13,7 @@
 #include "risorius/face/calibration.h"
 #include "risorius/face/diagnostics.h"
 #include "risorius/face/statics.h"
+#include "risorius/fitting/fit_units.h"
 #include "risorius/solve/box_quadratic.h"
 
 namespace risorius::fitting {
@@ -113,8 +114,9 @@ Eigen::MatrixXd Player::slopes(const track::Drive& drive, const std::vector<char
 
 class Fit {
   public:
-    Fit(FaceTeam& team, const rig::RigDescription& rig, const scene::DisplacementTable& standard,
-        const StrengthFitOptions& options, const std::string& place, const ProgressMonitor& monitor)
+    Fit(face::FaceTeam& team, const rig::RigDescription& rig,
+        const scene::DisplacementTable& standard, const StrengthFitOptions& options,
+        const std::string& place, const ProgressMonitor& monitor)
         : team_(team), channels_(rig.channels()), options_(options), monitor_(monitor) {
         std::set<std::string> seen;
         for (const rig::MuscleBand& band : rig.atlas.bands)
@@ -269,7 +271,7 @@ class Fit {
         return false;
     }
 
-    FaceTeam& team_;
+    face::FaceTeam& team_;
     const track::ChannelTable channels_;
     const StrengthFitOptions options_;
     const ProgressMonitor& monitor_;
@@ -281,7 +283,7 @@ class Fit {
 
 }  // namespace
 
-StrengthFit fit_strengths(FaceTeam& team, const rig::RigDescription& rig,
+StrengthFit fit_strengths(face::FaceTeam& team, const rig::RigDescription& rig,
                           const scene::DisplacementTable& standard,
                           const StrengthFitOptions& options, const std::string& place,
                           const ProgressMonitor& monitor) {

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "risorius/core/progress_monitor.h"
-#include "risorius/fitting/face_team.h"
+#include "risorius/face/face_team.h"
 #include "risorius/rig/rig_description.h"
 #include "risorius/scene/landmark_displacements.h"
 
@@ -43,7 +43,7 @@ struct StrengthFitOptions {
 
 /// Fits the strengths. The faces are left at rest with the result. Throws Interrupted, and Error when the table names something that
 /// the rig does not know.
-StrengthFit fit_strengths(FaceTeam& team, const rig::RigDescription& rig,
+StrengthFit fit_strengths(face::FaceTeam& team, const rig::RigDescription& rig,
                           const scene::DisplacementTable& standard,
                           const StrengthFitOptions& options, const std::string& place,
                           const ProgressMonitor& monitor);

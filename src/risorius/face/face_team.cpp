@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/fitting/face_team.h"
+#include "risorius/face/face_team.h"
 
 #include <algorithm>
 
-namespace risorius::fitting {
+namespace risorius::face {
 
-FaceTeam::FaceTeam(face::Face& first, const std::function<face::Face()>& build,
-                   const ThreadLimit& threads)
+FaceTeam::FaceTeam(Face& first, const std::function<Face()>& build, const ThreadLimit& threads)
     : own_(static_cast<std::size_t>(std::clamp(threads.count(), 1, kMaxTeam) - 1)), faces_{&first} {
     parallel_for(static_cast<int>(own_.size()), threads, [&](int i) {
-        own_[static_cast<std::size_t>(i)] = std::make_unique<face::Face>(build());
+        own_[static_cast<std::size_t>(i)] = std::make_unique<Face>(build());
     });
     for (const auto& face : own_) faces_.push_back(face.get());
     free_ = faces_;
 }
 
-void FaceTeam::each(int count, const std::function<void(int, face::Face&)>& task) {
+void FaceTeam::each(int count, const std::function<void(int, Face&)>& task) {
     parallel_for(count, static_cast<int>(faces_.size()), [&](int i) {
-        face::Face* face = nullptr;
+        Face* face = nullptr;
         {
             const std::lock_guard lock(mutex_);
             face = free_.back();
@@ -37,4 +36,4 @@ void FaceTeam::each(int count, const std::function<void(int, face::Face&)>& task
     });
 }
 
-}  // namespace risorius::fitting
+}  // namespace risorius::face
