@@ -28,6 +28,33 @@ SparseCholesky chain_metric(int n, double stiffness) {
     return SparseCholesky(builder.build(first_fixed(n)));
 }
 
+// An energy whose last digits are noise that hides the decrease.
+TEST(QuasiNewton, DoesNotLookForDecreasesThatRoundingHides) {
+    const int n = 12;
+    const SparseCholesky metric = chain_metric(n, 40);
+    int calls = 0;
+    const auto energy = [&](const Points& x, Points& gradient) {
+        gradient.setZero();
+        double e = 1e-9 * ++calls;
+        for (int i = 0; i + 1 < n; ++i) {
+            const Eigen::RowVector3d d = x.row(i + 1) - x.row(i);
+            e += 20 * d.squaredNorm();
+            gradient.row(i + 1) += 40 * d;
+            gradient.row(i) -= 40 * d;
+        }
+        gradient.row(0).setZero();
+        return e;
+    };
+    for (const double shortest_m : {0.0, 1e-9}) {
+        Points x = Points::Zero(n, 3);
+        for (int i = 0; i < n; ++i) x(i, 0) = 1e-10 * i / n;
+        const StepReport report =
+            minimise(energy, metric, x, {.iterations = 1, .shortest_m = shortest_m});
+        EXPECT_EQ(report.evaluations, shortest_m > 0 ? 2 : 14);
+        EXPECT_TRUE(report.stalled);
+    }
+}
+
 TEST(QuasiNewton, AQuadraticWithItsOwnHessianIsDoneInOneStep) {
     // Linear springs of zero rest length between neighbours, and a weight on every node.
     const int n = 12;

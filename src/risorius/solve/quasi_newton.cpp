@@ -126,6 +126,8 @@ StepReport QuasiNewton::minimise(const EnergyAndGradient& energy, const InverseM
         double trial_energy = 0;
         bool accepted = false;
         for (int halving = 0; halving <= options.backtracks && slope < 0; ++halving) {
+            // At rest rounding hides the decrease of the energy: shorter and shorter moves would find nothing either
+            if (halving > 0 && t * longest < options.shortest_m) break;
             trial_ = x + t * direction_;
             trial_energy = energy(trial_, trial_gradient_);
             ++report.evaluations;

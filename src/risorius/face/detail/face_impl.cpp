@@ -17,6 +17,8 @@ namespace {
 
 constexpr int kMemory = 6;
 constexpr double kStepCap_m = 6e-3;
+// Far below the error of a step. A held pose comes to rest there, instead of looking for decreases of the energy that rounding hides.
+constexpr double kShortestMove_m = 1e-7;
 // A drive that bends more than this within two substeps has jumped: of the range of a kinematic channel, and of an activation.
 constexpr double kJump = 0.1, kActivationJump = 0.5;
 
@@ -180,6 +182,7 @@ StepStats FaceImpl::substep(const DriveAt& drive_at) {
                                                         .pairs = quality.precision,
                                                         .step_cap_m = kStepCap_m,
                                                         .tolerance_rms_m = quality.tolerance_rms_m,
+                                                        .shortest_m = kShortestMove_m,
                                                         .trust_last = quality.tolerance_rms_m == 0},
                                                        x, now.jaw, warm_start);
     Points move = x - carried;
