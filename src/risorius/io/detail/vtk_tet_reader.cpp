@@ -187,9 +187,10 @@ TetMesh VtkCells::finish() {
     for (std::size_t i = 0; i + 2 < points.size(); i += 3)
         mesh.add_node(static_cast<long long>(i / 3), {points[i], points[i + 1], points[i + 2]});
     const std::size_t count = types.size();
-    if (offsets.size() != (count == 0 ? offsets.size() : count + 1))
-        throw Error(name_, "a type for each of " + std::to_string(offsets.size() - 1) + " cells",
-                    std::to_string(count));
+    if (count > 0 && offsets.size() != count + 1)
+        throw Error(name_, "as many types as cells",
+                    std::to_string(count) + " types and " + std::to_string(offsets.size()) +
+                        " ends of cells");
     if (!tags.empty() && tags.size() != count)
         throw Error(name_, "a tag for each of " + std::to_string(count) + " cells",
                     std::to_string(tags.size()));
