@@ -218,11 +218,12 @@ solve::MotionState SoftBody::start() const {
 
 double SoftBody::volume(const Points& x) const {
     assert(kind == Kind::kSolid);
+    if (tets) return tets->volume(x);
     return tissue::enclosed_volume(grid, x);
 }
 
 double SoftBody::volume_element_sum(const Points& x) const {
-    assert(kind == Kind::kSolid);
+    assert(kind == Kind::kSolid && !tets);
     double sum = 0;
     for (int i = 0; i + 1 < grid.m; ++i)
         for (int j = 0; j + 1 < grid.n; ++j)
