@@ -11,9 +11,9 @@ namespace risorius::study {
 namespace {
 
 /// Rounded to a digit that a reader may believe; null where there is none.
-Json rounded(double value, double unit) {
+Json rounded(double value, double per_unit) {
     if (!std::isfinite(value)) return nullptr;
-    return std::round(value / unit) * unit + 0.0;
+    return std::round(value * per_unit) / per_unit + 0.0;
 }
 
 /// The columns of some landmarks in the rows of A, B and AB.
@@ -57,8 +57,7 @@ Spread spread_of(const sensitivity::SampledResults& results, const Eigen::RowVec
 }
 
 Json estimate_json(const sensitivity::Estimate& estimate) {
-    return {rounded(estimate.value, 1e-4), rounded(estimate.low, 1e-4),
-            rounded(estimate.high, 1e-4)};
+    return {rounded(estimate.value, 1e4), rounded(estimate.low, 1e4), rounded(estimate.high, 1e4)};
 }
 
 Json indices_json(const StudyDescription& study, const Output& output) {
@@ -107,12 +106,12 @@ Json results_json(const StudyDescription& study, const StudyResults& results) {
         for (const Output& output : results.landmarks) {
             if (output.pose != pose.pose) continue;
             const Spread& s = output.spread;
-            Json entry = json_object({{"rig_mm", rounded(s.rig, 1e-3)},
-                                      {"mean_mm", rounded(s.mean, 1e-3)},
-                                      {"p5_mm", rounded(s.low, 1e-3)},
-                                      {"p95_mm", rounded(s.high, 1e-3)},
-                                      {"sd_mm", rounded(s.deviation, 1e-3)},
-                                      {"away_p95_mm", rounded(s.away, 1e-3)}});
+            Json entry = json_object({{"rig_mm", rounded(s.rig, 1e3)},
+                                      {"mean_mm", rounded(s.mean, 1e3)},
+                                      {"p5_mm", rounded(s.low, 1e3)},
+                                      {"p95_mm", rounded(s.high, 1e3)},
+                                      {"sd_mm", rounded(s.deviation, 1e3)},
+                                      {"away_p95_mm", rounded(s.away, 1e3)}});
             if (study.indices) entry["indices"] = indices_json(study, output);
             landmarks[study.landmarks[static_cast<std::size_t>(output.landmark)]] = entry;
         }
