@@ -5,8 +5,8 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
-#include "risorius/study/study_description.h"
 #include "risorius/study/run_study.h"
+#include "risorius/study/study_description.h"
 #include "tools/risorius/commands.h"
 
 namespace risorius::cli {
