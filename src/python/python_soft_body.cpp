@@ -11,6 +11,7 @@
 #include "python/python_values.h"
 #include "risorius/core/error.h"
 #include "risorius/softbody/body_description.h"
+#include "risorius/softbody/mesh_body.h"
 #include "risorius/softbody/soft_body.h"
 #include "risorius/solve/integrator.h"
 
@@ -30,12 +31,15 @@ const std::map<std::string, solve::Method>& methods() {
     return kMethods;
 }
 
+softbody::SoftBody built(const JsonCursor& json) {
+    return softbody::is_mesh_body(json) ? softbody::build_mesh_body(softbody::read_mesh_body(json))
+                                        : softbody::build_body(softbody::read_body(json));
+}
+
 class PythonSoftBody {
   public:
     PythonSoftBody(const py::dict& description, const std::string& method, double step_s)
-        : body_(softbody::build_body(
-              softbody::read_body(JsonCursor::from_json(json_of(description), "body")))),
-          state_(body_.start()) {
+        : body_(built(JsonCursor::from_json(json_of(description), "body"))), state_(body_.start()) {
         const auto found = methods().find(method);
         if (found == methods().end()) {
             std::string expected = "one of";
@@ -68,8 +72,8 @@ class PythonSoftBody {
 void add_soft_body(py::module_& module) {
     py::class_<PythonSoftBody>(
         module, "SoftBody",
-        "A soft solid, surface or curve of the thesis.\n\n"
-        "body: a dict as \"body\" of an experiment file\n"
+        "A soft solid, surface or curve of the thesis, or a mesh of tetrahedra.\n\n"
+        "body: a dict as \"body\" of an experiment file, or of the kind \"mesh\"\n"
         "method: euler, verlet, runge_kutta_4, implicit_euler or quasi_static")
         .def(py::init<const py::dict&, const std::string&, double>(), py::arg("body"),
              py::arg("method") = "implicit_euler", py::arg("step_s") = 1.0 / 60)
@@ -91,12 +95,18 @@ void add_soft_body(py::module_& module) {
             "surface", [](const PythonSoftBody& self) { return self.body().surface; },
             "Triangles of the boundary, F x 3 node indices, a copy.")
         .def_property_readonly(
+            "tets",
+            [](const PythonSoftBody& self) {
+                return self.body().tets ? self.body().tets->body().tets : Tets(0, 4);
+            },
+            "Tetrahedra of a mesh, T x 4 node indices, a copy; none for grids.")
+        .def_property_readonly(
             "grid",
             [](const PythonSoftBody& self) {
                 return std::array<int, 3>{self.body().grid.m, self.body().grid.n,
                                           self.body().grid.o};
             },
-            "Number of nodes along each material axis.")
+            "Number of nodes along each material axis; 0 for a mesh.")
         .def_property_readonly(
             "volume_m3",
             [](const PythonSoftBody& self) { return self.body().volume(self.state().x); },

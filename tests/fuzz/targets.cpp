@@ -21,6 +21,7 @@
 #include "risorius/io/mesh_message.h"
 #include "risorius/io/morph_model.h"
 #include "risorius/io/read_mesh.h"
+#include "risorius/io/tet_mesh.h"
 #include "risorius/media/detail/sound.h"
 #include "risorius/media/hdr_file.h"
 #include "risorius/media/picture_file.h"
@@ -143,6 +144,20 @@ template <const char* name>
 void read_mesh(const std::uint8_t* data, std::size_t size, Digest& digest) {
     static const bool made = (make_beside("beside.mtl", "newmtl skin\nmap_Kd skin.png\n"), true);
     if (made) add_mesh(io::read_mesh(file_of(name, data, size)), digest);
+}
+
+/// A mesh of tetrahedra in the format that its first letters are of.
+void read_tets(const std::uint8_t* data, std::size_t size, Digest& digest) {
+    const std::string text = text_of(data, size);
+    const char* const name = text.starts_with('$')   ? "input.msh"
+                             : text.starts_with('#') ? "input.vtk"
+                             : text.starts_with('<') ? "input.vtu"
+                                                     : "input.mesh";
+    const io::TetMesh mesh = io::read_tet_mesh(file_of(name, data, size));
+    digest.add(mesh.positions);
+    digest.add(mesh.tets);
+    digest.add(mesh.tags);
+    for (const auto& [group, tag] : mesh.names) digest.add(group);
 }
 
 void read_materials(const std::uint8_t* data, std::size_t size, Digest& digest) {
@@ -348,7 +363,7 @@ const std::vector<Target>& targets() {
         {"identity", read_identity},   {"shapes_table", read_shapes_table},
         {"textgrid", read_textgrid},   {"labels", read_labels},
         {"utterance", read_utterance}, {"motion", read_motion},
-        {"edits", make_edits}};
+        {"edits", make_edits},         {"tet_mesh", read_tets}};
     return list;
 }
 

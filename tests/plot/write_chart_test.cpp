@@ -110,6 +110,29 @@ bool is_well_formed(const std::string& xml) {
     return open.empty();
 }
 
+TEST(NamedAxis, HasNamesInPlaceOfNumbers) {
+    const TemporaryFolder folder;
+    Chart chart;
+    chart.name = "named";
+    chart.x.names = {{0, "fat's stiffness"}, {1, "force"}};
+    chart.x.range = {-0.5, 1.5};
+    chart.series.push_back({"", {0, 1}, {0.2, 0.7}, Mark::kPoints});
+    write_chart(chart, folder.path());
+    const std::string script = bytes_of(folder / "named.gp");
+    EXPECT_NE(script.find("set xtics rotate by 35 right ('fat''s stiffness' 0, 'force' 1)"),
+              std::string::npos)
+        << script;
+    EXPECT_NE(bytes_of(folder / "named.svg").find("stiffness"), std::string::npos);
+    chart.x.logarithmic = true;
+    chart.x.range = {0.5, 1.5};
+    EXPECT_EQ(message_of([&] { write_chart(chart, folder.path()); }).substr(0, 60),
+              "chart \"named\"/x: expected values above 0 on a logarithmic ax");
+    chart.series.front().x = {0.6, 1};
+    EXPECT_EQ(
+        message_of([&] { write_chart(chart, folder.path()); }),
+        "chart \"named\"/x/names: expected none on a logarithmic axis, found fat's stiffness");
+}
+
 TEST(WriteChart, LeavesBothPicturesTheScriptAndTheData) {
     const TemporaryFolder folder;
     EXPECT_EQ(

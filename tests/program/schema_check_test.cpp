@@ -49,7 +49,7 @@ TEST(SchemaCheck, EveryFormatThatAUserWritesHasOne) {
     const std::vector<std::string> formats = schema_formats();
     for (const char* format :
          {"risorius-script", "risorius-rig", "risorius-landmarks", "risorius-design",
-          "risorius-experiment", "risorius-identity", "risorius-run"})
+          "risorius-experiment", "risorius-identity", "risorius-run", "risorius-study"})
         EXPECT_NE(std::find(formats.begin(), formats.end(), format), formats.end()) << format;
 }
 

@@ -178,6 +178,22 @@ class SampleTest(unittest.TestCase):
     def test_inverse_finds_the_activations(self):
         self.assertLess(float(self.run_sample("inverse.py").rsplit(" ", 1)[1]), 0.02)
 
+    def test_mesh_body(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mesh = pathlib.Path(folder, "one.mesh")
+            mesh.write_text("MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+                            "Tetrahedra\n1\n1 2 3 4 7\n")
+            body = risorius.SoftBody({
+                "kind": "mesh", "mesh": {"file": str(mesh)}, "gravity_m_per_s2": [0, 0, -1],
+                "materials": [{"tags": [7], "law": "neo-hookean", "c10_pa": 400, "bulk_pa": 4000, "density_kg_per_m3": 100}],
+                "fixed": [{"low_m": [-1, -1, -1], "high_m": [2, 2, 0.5]}]}, method="quasi_static")
+        body.advance(1)
+        # One free node: what pulls it down, a quarter of the weight, stretches a column of a third of the volume
+        self.assertEqual(body.tets.tolist(), [[0, 1, 2, 3]])
+        self.assertLess(body.nodes[3, 2], 1)
+        self.assertGreater(body.nodes[3, 2], 0.99)
+        self.assertLess(body.volume_m3, 1 / 6)
+
     def test_study(self):
         rows = [line.split("\t") for line in self.run_sample("study.py").splitlines()]
         self.assertEqual(len(rows), 10)

@@ -16,6 +16,7 @@
 #include "risorius/scene/scene_from_rig.h"
 #include "risorius/speech/utterance.h"
 #include "risorius/stimuli/batch.h"
+#include "risorius/study/run_study.h"
 #include "risorius/track/script.h"
 #include "tools/risorius/schema_check.h"
 #include "tools/risorius/stop_signals.h"
@@ -138,6 +139,7 @@ void check(CheckResult& result) {
     if (result.format == "experiment") figures::check_experiment(json);
     if (result.format == "landmarks") check_landmarks(result.file, result);
     if (result.format == "rig") check_rig(result.file, result);
+    if (result.format == "study") study::check_study(result.file);
     if (result.format == "utterance") speech::read_utterance(json, speech::PhoneTable::standard());
     // The readers give the best messages. The schema also covers formats that only programs write, and keys that only a run
     // reads.

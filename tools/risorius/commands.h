@@ -29,6 +29,7 @@ void add_export(CLI::App& app);
 void add_batch(CLI::App& app);
 void add_reverse(CLI::App& app);
 void add_studio(CLI::App& app);
+void add_study(CLI::App& app);
 
 /// Thrown for wrong input after the message has been printed.
 class SaidAlready : public std::exception {};

@@ -187,6 +187,7 @@ int run(int argc, char** argv) {
     cli::add_export(app);
     cli::add_batch(app);
     cli::add_reverse(app);
+    cli::add_study(app);
     cli::add_studio(app);
     cli::add_bench(app);
     cli::add_figure(app);

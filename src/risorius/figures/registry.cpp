@@ -90,6 +90,7 @@ const std::vector<Figure>& figures() {
         {"adaptive", "Resolution where the strain asks for it", "adaptive", 10, Origin::kBeyond},
         {"cantilever", "Cells against Timoshenko's cantilever", "verification", 20,
          Origin::kBeyond},
+        {"bar", "Bending cells against Timoshenko's bar", "verification", 5, Origin::kBeyond},
         {"cook", "Cells against Cook's panel", "verification", 5, Origin::kBeyond},
         {"patch", "Patch test on distorted cells", "verification", 1, Origin::kBeyond},
         {"torsion", "Cells against pure torsion", "verification", 10, Origin::kBeyond},

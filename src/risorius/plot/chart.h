@@ -33,6 +33,8 @@ struct Axis {
     std::string label = {};  ///< quantity and unit: "time (s)"
     bool logarithmic = false;
     std::optional<std::pair<double, double>> range = {};  ///< none: the range of the data
+    /// Names at places of the axis, in place of numbers. Not for logarithmic axes.
+    std::vector<std::pair<double, std::string>> names = {};
 };
 
 /// The whole chart.

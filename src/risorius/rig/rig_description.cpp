@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "risorius/core/data_folder.h"
 #include "risorius/core/existing_file.h"
@@ -257,8 +258,44 @@ void apply_unit_gains(const std::map<std::string, UnitGain>& gains, track::FacsT
     }
 }
 
+/// Whether all bands of a muscle have the same strength, so that one number can say it.
+static bool has_one_strength(const std::vector<MuscleBand>& bands, const std::string& muscle) {
+    std::set<double> strengths;
+    for (const MuscleBand& band : bands)
+        if (band.muscle == muscle) strengths.insert(band.strength);
+    return strengths.size() == 1;
+}
+
 RigDescription read_rig(const std::filesystem::path& file) {
+    return read_rig(JsonCursor::read_file(file));
+}
+
+Json resolved_rig(const std::filesystem::path& file) {
     const JsonCursor json = JsonCursor::read_file(file);
+    const RigDescription rig = read_rig(json);
+    const auto follow_all = [](Json& out, const JsonCursor& from,
+                               std::initializer_list<const char*> tables) {
+        for (const char* key : tables)
+            if (const auto found = from.find(key)) out[key] = follow_table(*found).json();
+    };
+    Json out = json.json();
+    follow_all(out, json, {"anatomy", "tissue", "skin", "facs", "expressions"});
+    // A table of the anatomy is relative to the file of the anatomy.
+    follow_all(out["anatomy"], follow_table(json.at("anatomy")),
+               {"landmarks", "thickness", "attachments", "muscle_bands", "muscles", "wrinkles",
+                "solids", "lips", "jaw", "eyes", "activation"});
+    Json& strength = out["anatomy"]["strength"];
+    for (const MuscleBand& band : rig.atlas.bands)
+        if (has_one_strength(rig.atlas.bands, band.muscle)) strength[band.muscle] = band.strength;
+    out["anatomy"]["lips"] = fields_of(rig.lips);
+    out["anatomy"]["jaw"] = fields_of(rig.jaw);
+    out["anatomy"]["eyes"] = fields_of(rig.eyes);
+    out["tissue"] = fields_of(rig.tissue);
+    out["skin"] = fields_of(rig.skin);
+    return out;
+}
+
+RigDescription read_rig(const JsonCursor& json) {
     json.at("format").one_of({"risorius-rig"});
     json.allow_keys({"format", "version", "name", "mesh", "landmarks", "anatomy", "tissue", "skin",
                      "facs", "unit_gains", "expressions", "appearance", "look", "calibrated_on"});

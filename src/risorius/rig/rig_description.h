@@ -165,6 +165,12 @@ struct RigDescription {
 
 /// Reads a rig file and its tables. Throws Error with file, place, and the expected and the found value.
 RigDescription read_rig(const std::filesystem::path& file);
+/// Reads a rig from JSON in memory. Its relative paths begin at the folder of `json.file()`.
+RigDescription read_rig(const JsonCursor& json);
+
+/// Returns a rig file with copies of its tables in place of their paths, and with the defaults of "tissue", "skin" and the anatomy
+/// ("strength", "lips", "jaw", "eyes") filled in. Every number of the face is in it. Throws Error.
+Json resolved_rig(const std::filesystem::path& file);
 
 /// How a rig is written: with copies of the standard tables (inline_tables), or with the paths of the tables in
 /// `standard_folder`. The file is written under a temporary name and then renamed, so that no incomplete file is left.

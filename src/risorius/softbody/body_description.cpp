@@ -113,9 +113,12 @@ void read_curve_material(const JsonCursor& json, BodyDescription& body) {
 }
 
 Discretisation read_discretisation(const JsonCursor& json, Kind kind) {
-    if (kind == Kind::kSolid)
-        return json.one_of({"differences", "cells"}) == "cells" ? Discretisation::kCells
-                                                                : Discretisation::kDifferences;
+    if (kind == Kind::kSolid) {
+        const std::string name = json.one_of({"differences", "cells", "bending-cells"});
+        return name == "cells"           ? Discretisation::kCells
+               : name == "bending-cells" ? Discretisation::kBendingCells
+                                         : Discretisation::kDifferences;
+    }
     return json.one_of({"differences", "triangles"}) == "triangles" ? Discretisation::kTriangles
                                                                     : Discretisation::kDifferences;
 }
@@ -168,7 +171,7 @@ tissue::SolidMaterial material_of_block(const ModuliDescription& moduli, const V
     material.elastic_n_per_m3 = tissue::block_tensor(moduli.elastic.shear_pa, edges_m);
     material.damping_ns_per_m3 = tissue::block_tensor(moduli.viscosity_pa_s, edges_m);
     material.incompressibility_n_per_m5 =
-        discretisation == Discretisation::kCells
+        discretisation != Discretisation::kDifferences
             ? tissue::incompressibility(k_pa, volume_m3)
             : tissue::nodal_incompressibility(k_pa, volume_m3, grid);
     material.mass_kg = moduli.density_kg_per_m3 * volume_m3;
@@ -256,6 +259,8 @@ BodyDescription read_body(const JsonCursor& json) {
         if (body.rest.form != RestDescription::Form::kBlock)
             material.fail("lambda, omega and psi where the rest shape is not a block", "moduli");
         body.moduli = read_moduli(material);
+        if (body.discretisation == Discretisation::kBendingCells && body.moduli->viscosity_pa_s > 0)
+            material.at("viscosity_pa_s").fail("0 for bending cells");
     } else {
         read_solid_material(material, body);
     }
@@ -273,6 +278,10 @@ BodyDescription read_body(const JsonCursor& json) {
     for (const char* key : {"springs", "pulses"})
         if (body.irregular && json.has(key)) json.at(key).fail("none on irregular triangles");
     if (const auto obstacles = json.find("obstacles")) body.obstacles = read_obstacles(*obstacles);
+
+    if (body.discretisation == Discretisation::kBendingCells &&
+        (!body.moduli || json.has("regions")))
+        json.at("discretisation").fail("moduli as material, and no regions, for bending cells");
 
     // Some errors show only in the whole: a folded rest shape, or a plane that the grid does not have.
     if (body.kind == Kind::kSolid)

@@ -37,9 +37,10 @@ namespace risorius::softbody {
 
 /// How a body is discretised.
 enum class Discretisation {
-    kDifferences,  ///< A: finite differences, as in the thesis
-    kCells,        ///< B: trilinear cells with exact volume
-    kTriangles     ///< triangles, for surfaces
+    kDifferences,   ///< A: finite differences, as in the thesis
+    kCells,         ///< B: trilinear cells with exact volume
+    kBendingCells,  ///< the same, for blocks that bend (tissue/bending_cells.h); material by moduli
+    kTriangles      ///< triangles, for surfaces
 };
 
 /// An isotropic material given by its moduli. It is converted to lambda, omega and psi for the size of the block.

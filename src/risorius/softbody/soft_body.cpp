@@ -7,6 +7,7 @@
 
 #include "risorius/contact/obstacle_contact.h"
 #include "risorius/contact/surface_samples.h"
+#include "risorius/tissue/bending_cells.h"
 #include "risorius/tissue/cell_body.h"
 #include "risorius/tissue/cell_solid.h"
 #include "risorius/tissue/difference_solid.h"
@@ -37,10 +38,19 @@ Matter matter_of_solid(const BodyDescription& description) {
     matter.rest = solid.rest;
     matter.mass_kg = tissue::node_mass(solid);
     matter.drag_ns_per_m = tissue::node_drag(solid);
-    if (description.discretisation == Discretisation::kCells)
+    if (description.discretisation == Discretisation::kBendingCells) {
+        tissue::CellBody body = tissue::cell_body(solid);
+        body.parameters.clear();
+        body.moduli.assign(body.mesh.cells().size(),
+                           {.mu_pa = description.moduli->elastic.shear_pa,
+                            .bulk_pa = description.moduli->elastic.volume_pa,
+                            .viscosity_pa_s = 0});
+        matter.inner = std::make_shared<tissue::BendingCells>(std::move(body));
+    } else if (description.discretisation == Discretisation::kCells) {
         matter.inner = std::make_shared<tissue::CellSolid>(tissue::cell_body(solid));
-    else
+    } else {
         matter.inner = std::make_shared<tissue::DifferenceSolid>(solid, description.place);
+    }
     matter.surface = tissue::surface_triangles(solid.grid);
     matter.wires = tissue::grid_lines(solid.grid);
     return matter;
@@ -218,11 +228,12 @@ solve::MotionState SoftBody::start() const {
 
 double SoftBody::volume(const Points& x) const {
     assert(kind == Kind::kSolid);
+    if (tets) return tets->volume(x);
     return tissue::enclosed_volume(grid, x);
 }
 
 double SoftBody::volume_element_sum(const Points& x) const {
-    assert(kind == Kind::kSolid);
+    assert(kind == Kind::kSolid && !tets);
     double sum = 0;
     for (int i = 0; i + 1 < grid.m; ++i)
         for (int j = 0; j + 1 < grid.n; ++j)

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "risorius/core/types.h"
 #include "risorius/softbody/body_description.h"
 #include "risorius/solve/motion_system.h"
+#include "risorius/tissue/hyperelastic_tets.h"
 #include "risorius/tissue/solid_material.h"
 
 namespace risorius::softbody {
@@ -16,8 +18,9 @@ namespace risorius::softbody {
 /// The body that build_body() makes.
 struct SoftBody {
     Kind kind = Kind::kSolid;
-    tissue::GridShape grid;  ///< one layer for surfaces, one line of nodes for curves
-    Points rest;             ///< MNO x 3, m
+    tissue::GridShape
+        grid;     ///< one layer for surfaces, one line of nodes for curves; 0 x 0 x 0 for a mesh
+    Points rest;  ///< MNO x 3, m
     /// Copies of this body share its terms, so only one thread at a time may use them.
     solve::MotionSystem system;
     double length_scale_m = 1;  ///< longest edge of the bounding box at rest, m
@@ -28,14 +31,16 @@ struct SoftBody {
     std::vector<std::array<int, 2>> wires = {};  ///< pairs of neighbouring nodes
     std::vector<std::array<int, 2>> edges = {};  ///< wires along the edges of the rest shape
     std::vector<int> fixed = {};                 ///< indices of the fixed nodes
+    /// The solid of a body that is a mesh (mesh_body.h); null for those on grids
+    std::shared_ptr<const tissue::HyperelasticTets> tets = {};
 
     /// Returns the initial state: the rest shape without velocity at t = 0.
     solve::MotionState start() const;
 
-    /// Volume of the trilinear cells, m^3. Only for solids, as the next function.
+    /// Volume of the trilinear cells or the tetrahedra, m^3. Only for solids, as the next function.
     double volume(const Points& x) const;
     /// Sum over nodes of dV by forward differences as in the thesis (difference_solid.h), m^3, for any discretisation of a
-    /// solid.
+    /// solid on a grid.
     double volume_element_sum(const Points& x) const;
 };
 

@@ -9,6 +9,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/solve/newton.h"
+#include "risorius/tissue/bending_cells.h"
 #include "risorius/tissue/cell_solid.h"
 #include "risorius/tissue/dead_loads.h"
 #include "risorius/tissue/moduli.h"
@@ -39,18 +40,23 @@ class Loads : public solve::EnergyTerm {
 
 /// A solid with its loads and fixed nodes, at the positions from which the solver starts.
 struct Setup {
-    std::shared_ptr<tissue::CellSolid> solid;
+    tissue::CellBody body;
+    std::shared_ptr<solve::EnergyTerm> solid;
     std::vector<char> fixed;
     std::vector<tissue::DeadLoads::Load> loads = {};
     Points x;
 
     Setup(const GridShape& grid, const tissue::RestShape& rest, const KnownMaterial& material)
-        : solid(std::make_shared<tissue::CellSolid>(
-              tissue::cell_body(tissue::uniform_cells(grid), rest, material.moduli(), 1))),
+        : body(tissue::cell_body(tissue::uniform_cells(grid), rest, material.moduli(), 1)),
           fixed(static_cast<std::size_t>(grid.size()), 0),
-          x(solid->body().rest) {}
+          x(body.rest) {
+        if (material.bending_cells)
+            solid = std::make_shared<tissue::BendingCells>(body);
+        else
+            solid = std::make_shared<tissue::CellSolid>(body);
+    }
 
-    const Points& rest() const { return solid->body().rest; }
+    const Points& rest() const { return body.rest; }
     void fix(int node) { fixed[static_cast<std::size_t>(node)] = 1; }
 
     /// Brings x into equilibrium.
@@ -76,15 +82,19 @@ struct Setup {
     }
 };
 
-/// Shares `force` among the nodes of the last plane of a1 as a traction that is the same everywhere does.
-void load_end(const GridShape& grid, const Vec3& force, Setup& setup) {
+/// Shares `force` among the nodes of a plane of a1 as a traction that is the same everywhere does.
+void load_plane(const GridShape& grid, int plane, const Vec3& force, Setup& setup) {
     const double cells = (grid.n - 1.0) * (grid.o - 1.0);
     for (int n = 0; n < grid.n; ++n)
         for (int o = 0; o < grid.o; ++o) {
             const double share = (n == 0 || n == grid.n - 1 ? 0.5 : 1) *
                                  (o == 0 || o == grid.o - 1 ? 0.5 : 1) / cells;
-            setup.loads.push_back({grid.index(grid.m - 1, n, o), share * force});
+            setup.loads.push_back({grid.index(plane, n, o), share * force});
         }
+}
+
+void load_end(const GridShape& grid, const Vec3& force, Setup& setup) {
+    load_plane(grid, grid.m - 1, force, setup);
 }
 
 void clamp_start(const GridShape& grid, Setup& setup) {
@@ -92,25 +102,51 @@ void clamp_start(const GridShape& grid, Setup& setup) {
         for (int o = 0; o < grid.o; ++o) setup.fix(grid.index(0, n, o));
 }
 
+/// Deflection per force of Timoshenko's cantilever, m/N.
+double timoshenko(const KnownMaterial& material) {
+    const double inertia = 1.0 / 12, nu = material.poisson_ratio;
+    const double shape = 10 * (1 + nu) / (12 + 11 * nu);
+    return std::pow(kSlender, 3) / (3 * material.young_pa * inertia) +
+           kSlender / (shape * material.shear_pa());
+}
+
+/// How far the nodes of a plane of a1 have risen on average.
+double rise(const GridShape& grid, int plane, const Setup& setup) {
+    double sum = 0;
+    for (int n = 0; n < grid.n; ++n)
+        for (int o = 0; o < grid.o; ++o) {
+            const int node = grid.index(plane, n, o);
+            sum += setup.x(node, 2) - setup.rest()(node, 2);
+        }
+    return sum / (grid.n * grid.o);
+}
+
+constexpr double kDeflection = 1e-3 * kSlender;
+
 double cantilever(const KnownMaterial& material, int cells) {
     const GridShape grid{static_cast<int>(kSlender) * cells + 1, cells + 1, cells + 1};
     Setup setup(
         grid, [](const Vec3& a) { return Vec3(kSlender * a[0], a[1], a[2]); }, material);
     clamp_start(grid, setup);
-    const double inertia = 1.0 / 12, nu = material.poisson_ratio;
-    const double shape = 10 * (1 + nu) / (12 + 11 * nu);
-    const double wanted = 1e-3 * kSlender;
-    const double compliance = std::pow(kSlender, 3) / (3 * material.young_pa * inertia) +
-                              kSlender / (shape * material.shear_pa());
-    load_end(grid, Vec3(0, 0, wanted / compliance), setup);
+    load_end(grid, Vec3(0, 0, kDeflection / timoshenko(material)), setup);
     setup.settle();
-    double sum = 0;
-    for (int n = 0; n < grid.n; ++n)
-        for (int o = 0; o < grid.o; ++o) {
-            const int node = grid.index(grid.m - 1, n, o);
-            sum += setup.x(node, 2) - setup.rest()(node, 2);
-        }
-    return sum / (grid.n * grid.o) / wanted;
+    return rise(grid, grid.m - 1, setup) / kDeflection;
+}
+
+/// Two cantilevers back to back, in balance: no section is kept from changing its shape, as a clamp would.
+double bar(const KnownMaterial& material, int cells) {
+    const int middle = static_cast<int>(kSlender) * cells;
+    const GridShape grid{2 * middle + 1, cells + 1, cells + 1};
+    Setup setup(
+        grid, [](const Vec3& a) { return Vec3(2 * kSlender * a[0], a[1], a[2]); }, material);
+    const Vec3 force(0, 0, kDeflection / timoshenko(material));
+    load_plane(grid, 0, force, setup);
+    load_plane(grid, middle, -2 * force, setup);
+    load_plane(grid, 2 * middle, force, setup);
+    setup.fix(grid.index(middle, cells / 2, cells / 2));  // bears nothing
+    setup.settle();
+    const double ends = 0.5 * (rise(grid, 0, setup) + rise(grid, 2 * middle, setup));
+    return (ends - rise(grid, middle, setup)) / kDeflection;
 }
 
 double cook(const KnownMaterial& material, int cells) {
@@ -235,7 +271,7 @@ double manufactured(const KnownMaterial& material, int cells) {
     // Work of the body force on each corner, by 2 x 2 x 2 Gauss points
     const tissue::CellModuli moduli = material.moduli();
     const double h = 1.0 / cells, volume = h * h * h / 8, off = 1 / std::sqrt(3.0);
-    for (const CellMesh::Cell& cell : setup.solid->mesh().cells())
+    for (const CellMesh::Cell& cell : setup.body.mesh.cells())
         for (int g = 0; g < 8; ++g) {
             Vec3 place;
             for (int k = 0; k < 3; ++k) place[k] = 0.5 * (1 + (g & (4 >> k) ? off : -off));
@@ -259,11 +295,12 @@ tissue::CellModuli KnownMaterial::moduli() const {
 
 const std::vector<KnownProblem>& known_problems() {
     static const std::vector<KnownProblem> kList{
-        {"cantilever", "deflection_ratio", 1, cantilever},
-        {"cook", "tip", 23.96, cook},  // Simo & Rifai 1990, plane stress with nu = 1/3
-        {"patch", "error", 0, patch},
-        {"torsion", "torque_ratio", 1, torsion},
-        {"manufactured", "error", 0, manufactured},
+        {"cantilever", "deflection_ratio", 1, true, cantilever},
+        {"bar", "deflection_ratio", 1, true, bar},
+        {"cook", "tip", 23.96, false, cook},  // Simo & Rifai 1990, plane stress with nu = 1/3
+        {"patch", "error", 0, false, patch},
+        {"torsion", "torque_ratio", 1, false, torsion},
+        {"manufactured", "error", 0, true, manufactured},
     };
     return kList;
 }

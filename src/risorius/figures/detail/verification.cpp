@@ -14,19 +14,26 @@ constexpr double kRounding = 1e-12;  // distances below this have no order
 
 struct VerificationPlan {
     const KnownProblem* problem = nullptr;
+    bool bending_cells = false;
     double young_pa = 0;
     std::vector<double> poisson_ratios;
     std::vector<int> cells;  ///< ascending
 };
 
 VerificationPlan read_verification(const JsonCursor& experiment) {
-    allow_experiment_keys(experiment, {"problem", "young_pa", "poisson_ratios", "cells"});
+    allow_experiment_keys(experiment,
+                          {"problem", "element", "young_pa", "poisson_ratios", "cells"});
     VerificationPlan plan;
     std::vector<std::string_view> names;
     for (const KnownProblem& problem : known_problems()) names.push_back(problem.name);
     const std::string name = experiment.at("problem").one_of(names);
     for (const KnownProblem& problem : known_problems())
         if (problem.name == name) plan.problem = &problem;
+    if (const auto element = experiment.find("element")) {
+        plan.bending_cells = element->one_of({"cells", "bending-cells"}) == "bending-cells";
+        if (plan.bending_cells && !plan.problem->boxes)
+            element->fail("cells: those of this problem are no boxes");
+    }
     plan.young_pa = experiment.at("young_pa").number({1e-6, 1e12});
     for (const JsonCursor& json : experiment.at("poisson_ratios").items())
         plan.poisson_ratios.push_back(json.number({0, 0.4999}));
@@ -58,8 +65,9 @@ void run_verification(const JsonCursor& experiment, const RunOptions& options, O
         // The longest first
         const std::size_t at = found.size() - 1 - static_cast<std::size_t>(i);
         options.monitor.throw_if_stopped();
-        found[at] = plan.problem->solve({plan.young_pa, plan.poisson_ratios[at / meshes]},
-                                        plan.cells[at % meshes]);
+        found[at] = plan.problem->solve(
+            {plan.young_pa, plan.poisson_ratios[at / meshes], plan.bending_cells},
+            plan.cells[at % meshes]);
         progress.done(work(at), std::to_string(plan.cells[at % meshes]) + " cells");
     });
 

@@ -113,6 +113,9 @@ AxisLayout lay_out(const Axis& axis, const std::vector<double>& values, const st
         }
     }
     if (axis.logarithmic) layout.tics = logarithmic_tics(layout.low, layout.high);
+    if (axis.logarithmic && !axis.names.empty())
+        throw Error(place + "/names", "none on a logarithmic axis", axis.names.front().second);
+    for (const auto& [at, name] : axis.names) layout.tics.push_back({at, typeset(name)});
     return layout;
 }
 

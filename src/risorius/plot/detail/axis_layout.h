@@ -17,7 +17,8 @@ struct Tic {
 
 struct AxisLayout {
     double low = 0, high = 1;
-    std::vector<Tic> tics;  ///< for logarithmic axes; gnuplot chooses those of linear axes
+    std::vector<Tic>
+        tics;  ///< of logarithmic axes and those with names; gnuplot chooses the others
 };
 
 /// The range of the finite values, or the axis' own range. Throws Error that names `place`: for values that a logarithmic axis

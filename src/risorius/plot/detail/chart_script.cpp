@@ -60,8 +60,10 @@ std::string axis_lines(const char* name, const Axis& axis, const AxisLayout& lay
     const std::string n = name;
     std::string text = "set " + n + "label " + in_quotes(typeset(axis.label)) + "\n";
     text += "set " + n + "range [" + number(layout.low) + ":" + number(layout.high) + "]\n";
-    if (!axis.logarithmic) return text + "set format " + n + " '%h'\n";
-    text += "set logscale " + n + " 10\nset " + n + "tics (";
+    if (!axis.logarithmic && layout.tics.empty()) return text + "set format " + n + " '%h'\n";
+    if (axis.logarithmic) text += "set logscale " + n + " 10\n";
+    // Names lean, so that they do not run into one another.
+    text += "set " + n + "tics " + (axis.logarithmic ? "(" : "rotate by 35 right (");
     for (std::size_t i = 0; i < layout.tics.size(); ++i) {
         const Tic& tic = layout.tics[i];
         text += (i ? ", " : "") + in_quotes(tic.label) + " " + number(tic.at);

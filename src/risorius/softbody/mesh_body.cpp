@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/softbody/mesh_body.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "risorius/core/existing_file.h"
+#include "risorius/core/known_names.h"
+#include "risorius/io/tet_mesh.h"
+#include "risorius/softbody/detail/read_numbers.h"
+#include "risorius/tissue/gravity.h"
+#include "risorius/tissue/hyperelastic_tets.h"
+
+namespace risorius::softbody {
+
+namespace {
+
+using detail::not_negative;
+using detail::positive;
+
+constexpr int kLargestTag = 2'147'483'647;
+
+tissue::Hyperelastic read_law(const JsonCursor& json, std::vector<std::string_view>& keys) {
+    tissue::Hyperelastic out;
+    const std::string law =
+        json.at("law").one_of({"neo-hookean", "mooney-rivlin", "ogden", "fibres"});
+    if (law == "ogden") {
+        keys.push_back("terms");
+        for (const JsonCursor& term : json.at("terms").items()) {
+            const std::vector<JsonCursor> pair = term.items();
+            if (pair.size() != 2) term.fail("[modulus_pa, exponent]");
+            out.ogden.push_back({pair[0].number(), pair[1].number({-100, 100})});
+            if (!(out.ogden.back().modulus_pa * out.ogden.back().exponent > 0))
+                term.fail("a modulus and an exponent with the same sign, neither 0");
+        }
+        if (out.ogden.empty()) json.at("terms").fail("at least one term", "none");
+    } else {
+        keys.push_back("c10_pa");
+        out.c10_pa = positive(json.at("c10_pa"));
+    }
+    if (law == "mooney-rivlin" || law == "fibres") {
+        keys.push_back("c01_pa");
+        out.c01_pa =
+            law == "fibres" ? not_negative(json, "c01_pa", 0) : not_negative(json.at("c01_pa"));
+    }
+    if (law == "fibres") {
+        for (const char* key : {"c3_pa", "c4", "c5_pa", "straight", "along"}) keys.push_back(key);
+        out.fibres.c3_pa = positive(json.at("c3_pa"));
+        out.fibres.c4 = json.at("c4").number({1e-3, 100});
+        out.fibres.c5_pa = not_negative(json.at("c5_pa"));
+        out.fibres.straight = json.at("straight").number({1.001, 10});
+    }
+    out.bulk_pa = positive(json.at("bulk_pa"));
+    return out;
+}
+
+MeshRegion read_region(const JsonCursor& json) {
+    MeshRegion out;
+    std::vector<std::string_view> keys{"tags", "names", "law", "bulk_pa", "density_kg_per_m3"};
+    out.place = json.place();
+    out.material = read_law(json, keys);
+    json.allow_keys(keys);
+    if (const auto tags = json.find("tags"))
+        for (const JsonCursor& tag : tags->items())
+            out.tags.push_back(tag.integer(-kLargestTag, kLargestTag));
+    if (const auto names = json.find("names"))
+        for (const JsonCursor& name : names->items()) out.names.push_back(name.string());
+    out.density_kg_per_m3 = positive(json.at("density_kg_per_m3"));
+    if (out.material.fibres.c3_pa > 0) {
+        out.along = json.at("along").vec3();
+        if (!(out.along.norm() > 0)) json.at("along").fail("a direction");
+        out.along.normalize();
+    }
+    return out;
+}
+
+/// The material of each tetrahedron.
+std::vector<int> assign(const MeshBodyDescription& description, const io::TetMesh& mesh) {
+    std::map<int, int> region_of_tag;
+    int rest = -1;
+    std::vector<std::string> names;
+    for (const auto& [name, tag] : mesh.names) names.push_back(name);
+    const std::set<int> known(mesh.tags.begin(), mesh.tags.end());
+    for (std::size_t r = 0; r < description.regions.size(); ++r) {
+        const MeshRegion& region = description.regions[r];
+        const auto add = [&](int tag) {
+            if (!known.count(tag))
+                throw Error(region.place, "tags of " + description.file.string(),
+                            std::to_string(tag));
+            if (!region_of_tag.emplace(tag, static_cast<int>(r)).second)
+                throw Error(region.place, "tags that no other material has", std::to_string(tag));
+        };
+        for (const int tag : region.tags) add(tag);
+        for (const std::string& name : region.names)
+            add(mesh.names.at(names[index_of_name(region.place + "/names", name, names)]));
+        if (!region.is_rest()) continue;
+        if (rest >= 0)
+            throw Error(region.place, "\"tags\" or \"names\" in all materials but one", "neither");
+        rest = static_cast<int>(r);
+    }
+    std::vector<int> out;
+    for (const int tag : mesh.tags) {
+        const auto found = region_of_tag.find(tag);
+        if (found == region_of_tag.end() && rest < 0)
+            throw Error(description.place + "/materials", "a material for every tag",
+                        "none for " + std::to_string(tag));
+        out.push_back(found == region_of_tag.end() ? rest : found->second);
+    }
+    return out;
+}
+
+/// Triangles that belong to one tetrahedron only, facing outward.
+Triangles boundary_of(const Tets& tets) {
+    static constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+    std::map<std::array<int, 3>, std::pair<int, std::array<int, 3>>> faces;
+    for (Eigen::Index t = 0; t < tets.rows(); ++t)
+        for (const auto& face : kFaces) {
+            const std::array<int, 3> corners{tets(t, face[0]), tets(t, face[1]), tets(t, face[2])};
+            std::array<int, 3> key = corners;
+            std::sort(key.begin(), key.end());
+            const auto [at, is_new] = faces.emplace(key, std::pair(1, corners));
+            if (!is_new) ++at->second.first;
+        }
+    std::vector<std::array<int, 3>> outer;
+    for (const auto& [key, face] : faces)
+        if (face.first == 1) outer.push_back(face.second);
+    Triangles out(static_cast<Eigen::Index>(outer.size()), 3);
+    for (std::size_t f = 0; f < outer.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k)
+            out(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = outer[f][k];
+    return out;
+}
+
+std::vector<std::array<int, 2>> edges_of(const Tets& tets) {
+    std::set<std::array<int, 2>> edges;
+    for (Eigen::Index t = 0; t < tets.rows(); ++t)
+        for (int a = 0; a < 4; ++a)
+            for (int b = 0; b < a; ++b) {
+                const auto [low, high] = std::minmax(tets(t, a), tets(t, b));
+                edges.insert({low, high});
+            }
+    return {edges.begin(), edges.end()};
+}
+
+std::vector<char> fixed_nodes(const MeshBodyDescription& description, const Points& rest) {
+    std::vector<char> out(static_cast<std::size_t>(rest.rows()), 0);
+    for (std::size_t b = 0; b < description.fixed.size(); ++b) {
+        const auto& [low, high] = description.fixed[b];
+        bool any = false;
+        for (Eigen::Index i = 0; i < rest.rows(); ++i) {
+            const Vec3 at = rest.row(i).transpose();
+            if ((at.array() < low.array()).any() || (at.array() > high.array()).any()) continue;
+            out[static_cast<std::size_t>(i)] = 1;
+            any = true;
+        }
+        if (!any)
+            throw Error(description.place + "/fixed/" + std::to_string(b), "a box with nodes in it",
+                        "none");
+    }
+    return out;
+}
+
+}  // namespace
+
+bool is_mesh_body(const JsonCursor& json) {
+    const auto kind = json.find("kind");
+    return kind && kind->is_string() && kind->string() == "mesh";
+}
+
+MeshBodyDescription read_mesh_body(const JsonCursor& json) {
+    json.allow_keys({"kind", "mesh", "materials", "fixed", "gravity_m_per_s2"});
+    json.at("kind").one_of({"mesh"});
+    MeshBodyDescription out;
+    out.place = json.place();
+    if (out.place.ends_with('/')) out.place.pop_back();  // the top of a document
+    const JsonCursor mesh = json.at("mesh");
+    mesh.allow_keys({"file", "metres_per_unit"});
+    out.file = existing_file(mesh.at("file"));
+    if (const auto unit = mesh.find("metres_per_unit"))
+        out.metres_per_unit = unit->number({1e-9, 1e3});
+    for (const JsonCursor& region : json.at("materials").items())
+        out.regions.push_back(read_region(region));
+    if (out.regions.empty()) json.at("materials").fail("at least one material", "none");
+    if (const auto fixed = json.find("fixed"))
+        for (const JsonCursor& box : fixed->items()) {
+            box.allow_keys({"low_m", "high_m"});
+            out.fixed.emplace_back(box.at("low_m").vec3(), box.at("high_m").vec3());
+        }
+    if (const auto gravity = json.find("gravity_m_per_s2")) out.gravity_m_per_s2 = gravity->vec3();
+    return out;
+}
+
+SoftBody build_mesh_body(const MeshBodyDescription& description) {
+    const io::TetMesh mesh = io::read_tet_mesh(description.file);
+    tissue::HyperelasticBody matter;
+    matter.rest = description.metres_per_unit * mesh.positions;
+    matter.tets = mesh.tets;
+    matter.material_of = assign(description, mesh);
+    matter.fibres.resize(mesh.tets.rows(), 3);
+    for (const MeshRegion& region : description.regions)
+        matter.materials.push_back(region.material);
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
+        matter.fibres.row(t) =
+            description
+                .regions[static_cast<std::size_t>(matter.material_of[static_cast<std::size_t>(t)])]
+                .along.transpose();
+    auto term = std::make_shared<tissue::HyperelasticTets>(std::move(matter));
+    const tissue::HyperelasticBody& built = term->body();
+
+    Eigen::VectorXd mass_kg = Eigen::VectorXd::Zero(built.rest.rows());
+    for (Eigen::Index t = 0; t < built.tets.rows(); ++t) {
+        const auto region =
+            static_cast<std::size_t>(built.material_of[static_cast<std::size_t>(t)]);
+        const double share =
+            term->rest_volumes()[t] * description.regions[region].density_kg_per_m3 / 4;
+        for (int k = 0; k < 4; ++k) mass_kg[built.tets(t, k)] += share;
+    }
+    const std::vector<char> fixed = fixed_nodes(description, built.rest);
+    solve::MotionSystem system(mass_kg, fixed);
+    system.add(term);
+    system.add(std::make_shared<tissue::Gravity>(mass_kg, description.gravity_m_per_s2));
+    SoftBody body{.kind = Kind::kSolid,
+                  .grid = {0, 0, 0},
+                  .rest = built.rest,
+                  .system = std::move(system),
+                  .surface = boundary_of(built.tets),
+                  .wires = edges_of(built.tets),
+                  .tets = term};
+    body.length_scale_m =
+        (body.rest.colwise().maxCoeff() - body.rest.colwise().minCoeff()).maxCoeff();
+    body.weight_n = mass_kg.sum() * description.gravity_m_per_s2.norm();
+    for (std::size_t i = 0; i < fixed.size(); ++i)
+        if (fixed[i]) body.fixed.push_back(static_cast<int>(i));
+    return body;
+}
+
+}  // namespace risorius::softbody

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// The page of a study.
+#pragma once
+
+#include <string>
+
+#include "risorius/study/detail/study_results.h"
+
+namespace risorius::study {
+
+std::string study_page(const StudyDescription& study, const StudyResults& results);
+
+}  // namespace risorius::study
