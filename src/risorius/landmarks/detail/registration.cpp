@@ -193,8 +193,6 @@ SmoothField registered(const Moving& moving, const ShownHead& head) {
     const Points x = stacked(moving.anchors, moving.nodes);
     SmoothField field(moving.anchors, moving.anchor_deviation);
     field.set(moving.seen);
-    if (getenv("LMDBG"))
-        printf("[%ld %ld]", (long)moving.anchors.rows(), (long)moving.nodes.rows());
     for (const Scale& scale : kScales) {
         std::vector<double> deviation = moving.anchor_deviation;
         deviation.resize(static_cast<std::size_t>(x.rows()), scale.deviation_m);
@@ -235,12 +233,12 @@ std::map<std::string, PlacedLandmark> placed_landmarks(const TemplateHead& known
     const Similarity to_new = nearest_similarity(from, to, weights);
     Moving parts = moving(known, to_new, face);
     add_ears(known, to_new, head, parts);
-    const SmoothField field = registered(parts, head);
+    const SmoothField seen(parts.anchors, parts.anchor_deviation), field = registered(parts, head);
     std::map<std::string, PlacedLandmark> out;
     for (const auto& [id, p] : known.landmarks) {
         const Vec3 aligned = to_new(p), moved = aligned + field.at(aligned);
         const auto skin = head.skin_tree.closest(moved);
-        out[id] = {skin->point, std::sqrt(skin->squared_distance), field.deviation_at(aligned)};
+        out[id] = {skin->point, std::sqrt(skin->squared_distance), seen.deviation_at(aligned)};
     }
     return out;
 }

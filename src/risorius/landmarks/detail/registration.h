@@ -22,7 +22,8 @@ struct PlacedLandmark {
     Vec3 at;  ///< m, on the skin
     double off_m =
         0;  ///< of the template's skin around it from the new one, after the registration
-    double unseen_m = 0;  ///< standard deviation of the field there
+    double unseen_m =
+        0;  ///< deviation that what the network sees leaves there, before the registration
 };
 
 /// `head` and `face`: the new one, in the frame and size of the template.
