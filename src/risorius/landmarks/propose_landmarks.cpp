@@ -52,11 +52,12 @@ Similarity to_mesh_of(const TemplateHead& known, const FacePoints& face) {
 }
 
 /// The mesh and its points in the frame of the templates.
-ShownHead moved(const geom::PolygonMesh& mesh, const Similarity& motion, const fs::path& place) {
+ShownHead moved(const geom::PolygonMesh& mesh, const Similarity& motion,
+                const LandmarkOptions& options) {
     geom::PolygonMesh out = mesh;
     for (Eigen::Index v = 0; v < out.positions.rows(); ++v)
         out.positions.row(v) = motion(mesh.positions.row(v).transpose()).transpose();
-    return shown_head(out, place.string());
+    return shown_head(out, options.mesh.string(), options.parts);
 }
 
 void find_unit(const LandmarkOptions& options, double units_per_metre, LandmarkProposal& out) {
@@ -78,6 +79,7 @@ void find_unit(const LandmarkOptions& options, double units_per_metre, LandmarkP
                         " times the average adult");
     out.metres_per_unit = 1 / units_per_metre;
     out.size = 1;
+    out.usual_unit = false;
     out.notes.push_back(
         "in no usual unit the mesh has the size of a head: it is taken to be as large as the "
         "average adult");
@@ -106,14 +108,15 @@ LandmarkProposal propose_landmarks(const LandmarkOptions& options, const Progres
         options.standard.empty() ? data_folder() / "rigs" / "standard" : options.standard;
     rig::Atlas atlas;
     atlas.landmarks = rig::read_atlas_landmarks(JsonCursor::read_file(standard / "landmarks.json"));
-    const FaceNetwork network(options.weights.empty() ? weights_folder() : options.weights);
     const geom::PolygonMesh mesh =
         io::read_mesh(options.mesh, {.metres_per_unit = 1, .stopped = monitor.stopped});
+    const FaceNetwork network(options.weights.empty() ? weights_folder() : options.weights);
     monitor.report(0, "looking for the face");
     LandmarkProposal out;
     out.mesh = options.mesh.filename().string();
     out.notes = mesh.notes;
-    const auto seen = find_face_points(shown_head(mesh, options.mesh.string()), network);
+    const auto seen =
+        find_face_points(shown_head(mesh, options.mesh.string(), options.parts), network);
     if (!seen)
         throw Error(options.mesh.string(), "a mesh of a head with a face that can be recognized",
                     "no face in any of 24 orientations");
@@ -122,7 +125,7 @@ LandmarkProposal propose_landmarks(const LandmarkOptions& options, const Progres
     const std::vector<TemplateHead> known = read_templates(options, atlas, network);
     const Similarity to_mesh = to_mesh_of(known.front(), *seen), to_known = to_mesh.inverse();
     find_unit(options, to_mesh.scale, out);
-    const ShownHead head = moved(mesh, to_known, options.mesh);
+    const ShownHead head = moved(mesh, to_known, options);
     std::vector<SeenPoint> face = seen->points;
     for (SeenPoint& point : face) {
         point.at = to_known(point.at);

@@ -24,6 +24,8 @@ struct TemplateFiles {
 struct LandmarkOptions {
     std::filesystem::path mesh;
     std::optional<double> metres_per_unit{};  ///< none: estimated from the size of the face
+    /// A map from role to names of mesh groups, for groups whose names do not show it (fitting/fit_rig.h)
+    std::map<std::string, std::vector<std::string>> parts{};
     /// Heads that are brought onto the mesh; none: the embedded adult. A head of the same topology as the mesh would do too well.
     std::vector<TemplateFiles> templates{};
     std::filesystem::path weights{};  ///< folder of the network; empty: weights_folder()
@@ -56,6 +58,7 @@ struct LandmarkProposal {
     std::map<std::string, ProposedLandmark> landmarks;
     double metres_per_unit = 1;
     bool guessed_unit = false;
+    bool usual_unit = true;  ///< false: in no usual unit it has the size of a head
     double size = 1;       ///< of the head over the average adult
     double score = 0;      ///< of the network, 0..1
     double spread_mm = 0;  ///< median over the points of the network, of the views

@@ -139,6 +139,7 @@ Json LandmarkProposal::json() const {
     return json_object({{"mesh", mesh},
                         {"metres_per_unit", metres_per_unit},
                         {"guessed_unit", guessed_unit},
+                        {"usual_unit", usual_unit},
                         {"size", size},
                         {"score", score},
                         {"spread_mm", spread_mm},

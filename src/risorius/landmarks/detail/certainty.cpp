@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "risorius/core/json_cursor.h"
 #include "risorius/rig/head.h"
@@ -14,8 +15,41 @@ namespace {
 
 // Fitted to the errors on the heads of docs/validation: what is left where everything agrees, and the shares of the signs.
 constexpr double kLeast_m = 1.2e-3, kOfUnseen = 0.5, kOfOff = 1.0, kOfDisagreement = 1.0;
+// Bounds of a head, of the average adult
+constexpr double kLowestCrown_mm = 100, kShortestHead_mm = 150, kCrownHalfWidth_mm = 25,
+                 kMidlineHalfWidth_mm = 8, kLowestBack_mm = -20;
+constexpr double kFlat_mm = 4;  // a highest point of a flat crown may lie elsewhere by as much
 // A landmark that the others contradict
 constexpr double kOfContradiction = 0.7;
+
+/// Landmarks that their definition finds better than any comparison: the highest point of the head, and the midline point of its
+/// back that is farthest from the glabella. Left alone on a mask, which has neither.
+void find_by_definition(const ShownHead& head, const rig::HeadFrame& frame,
+                        std::map<std::string, JudgedLandmark>& landmarks) {
+    if (!landmarks.count("v") || !landmarks.count("op") || !landmarks.count("g")) return;
+    const Vec3 glabella = frame.to_head(landmarks.at("g").at);
+    const double mm = 1e-3 * frame.size;
+    std::optional<Vec3> highest, farthest;
+    double height = kLowestCrown_mm * mm, distance = kShortestHead_mm * mm;
+    for (Eigen::Index f = 0; f < head.skin.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const Vec3 in_mesh = head.positions.row(head.skin(f, k)).transpose(),
+                       p = frame.to_head(in_mesh);
+            if (std::abs(p.x()) < kCrownHalfWidth_mm * mm && p.y() > height) {
+                height = p.y();
+                highest = in_mesh;
+            }
+            const double away = (p - glabella).norm();
+            if (std::abs(p.x()) < kMidlineHalfWidth_mm * mm && p.y() > kLowestBack_mm * mm &&
+                p.z() < 0 && away > distance) {
+                distance = away;
+                farthest = in_mesh;
+            }
+        }
+    if (!highest || !farthest) return;
+    landmarks.at("v") = {*highest, kFlat_mm * mm, ""};
+    landmarks.at("op") = {*farthest, kFlat_mm * mm, ""};
+}
 
 std::string whole_mm(double metres) { return format_number(std::round(1e3 * metres)) + " mm"; }
 
@@ -48,7 +82,8 @@ std::map<std::string, JudgedLandmark> judged_landmarks(
     std::map<std::string, Vec3> positions;
     for (const auto& [id, landmark] : out) positions[id] = landmark.at;
     const rig::HeadFrame frame = rig::find_head_frame(positions, atlas, 1.0);
-    for (auto& [id, p] : positions) p = frame.to_head(p);
+    find_by_definition(head, frame, out);
+    for (auto& [id, p] : positions) p = frame.to_head(out.at(id).at);
     for (const rig::LandmarkPrediction& doubt :
          rig::doubtful_landmarks(positions, atlas, frame.size)) {
         JudgedLandmark& to = out.at(doubt.id);

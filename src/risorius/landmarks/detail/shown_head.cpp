@@ -100,11 +100,14 @@ Vec3 colour_of(const ShownHead& head, std::size_t triangle, const Vec3& p, const
 
 }  // namespace
 
-ShownHead shown_head(const geom::PolygonMesh& mesh, const std::string& place) {
+ShownHead shown_head(const geom::PolygonMesh& mesh, const std::string& place,
+                     const std::map<std::string, std::vector<std::string>>& parts) {
     std::vector<std::string> roles;
     bool any_skin = false;
     for (const std::string& group : mesh.group_names) {
         roles.push_back(mesh.group_names.size() == 1 ? "skin" : fitting::role_suggested_by(group));
+        for (const auto& [role, groups] : parts)
+            if (std::find(groups.begin(), groups.end(), group) != groups.end()) roles.back() = role;
         any_skin = any_skin || roles.back() == "skin";
     }
     ShownHead head;

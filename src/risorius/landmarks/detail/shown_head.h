@@ -6,6 +6,8 @@
 /// Positions are in the units of the mesh: its size and its orientation are not known yet.
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "risorius/geom/closest_point.h"
@@ -27,8 +29,9 @@ struct ShownHead {
     geom::SurfaceTree tree, skin_tree;
 };
 
-/// Throws Error that names `place` when nothing of the mesh can be skin.
-ShownHead shown_head(const geom::PolygonMesh& mesh, const std::string& place);
+/// `parts`: role -> groups, for groups whose names do not show it. Throws Error that names `place` when nothing can be skin.
+ShownHead shown_head(const geom::PolygonMesh& mesh, const std::string& place,
+                     const std::map<std::string, std::vector<std::string>>& parts = {});
 
 /// Where a picture is taken from, in parallel to the axes of a frame.
 struct ViewFrame {
