@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSeenDeviation_m = 1.2e-3;  // of a point on which all views agree
 constexpr double kWidelySeen_m = 5e-3;       // spread of views above which a point says nothing
-constexpr double kAnchorSpacing_m = 7e-3, kNodeSpacing_m = 16e-3;
+constexpr double kAnchorSpacing_m = 7e-3, kNodeSpacing_m = 16e-3, kEarSpacing_m = 6e-3;
 constexpr double kBelowChin_m = 0.045, kEarRadius_m = 0.034;
 constexpr double kSimilar = 0.6;  // cosine between normals that may belong together
 constexpr double kEarDeviation_m = 3e-3;
@@ -27,16 +27,26 @@ struct Scale {
 };
 constexpr std::array<Scale, 3> kScales{{{6e-3, 20e-3, 8}, {2.5e-3, 12e-3, 6}, {1.2e-3, 8e-3, 6}}};
 
-/// Points of a set that are at least `spacing` apart, lowest first.
-std::vector<int> spread_out(const Points& points, const std::vector<int>& among, double spacing) {
-    std::vector<int> out;
+/// Adds points of a set that are at least `spacing` from all before, lowest first.
+void spread_out_more(const Points& points, const std::vector<int>& among, double spacing,
+                     std::vector<int>& out) {
     for (const int v : among) {
         const bool far = std::all_of(out.begin(), out.end(), [&](int w) {
             return (points.row(v) - points.row(w)).squaredNorm() > spacing * spacing;
         });
         if (far) out.push_back(v);
     }
+}
+
+std::vector<int> spread_out(const Points& points, const std::vector<int>& among, double spacing) {
+    std::vector<int> out;
+    spread_out_more(points, among, spacing, out);
     return out;
+}
+
+/// The middle of an ear, from its tragion.
+Vec3 ear_of(const TemplateHead& known, const char* tragion) {
+    return known.landmarks.at(tragion) + Vec3(0, 0.005, -0.012);
 }
 
 Vec3 normal_at(const ShownHead& head, const geom::SurfacePoint& p) {
@@ -105,7 +115,15 @@ Moving moving(const TemplateHead& known, const Similarity& to_new,
             used[static_cast<std::size_t>(v)] = true;
             skin.push_back(v);
         }
-    const std::vector<int> nodes = spread_out(known.head.positions, skin, kNodeSpacing_m);
+    // Ears vary on a small scale.
+    std::vector<int> ears;
+    for (const int v : skin) {
+        const Vec3 p = known.head.positions.row(v).transpose();
+        for (const char* id : {"t_l", "t_r"})
+            if ((p - ear_of(known, id)).norm() < kEarRadius_m) ears.push_back(v);
+    }
+    std::vector<int> nodes = spread_out(known.head.positions, ears, kEarSpacing_m);
+    spread_out_more(known.head.positions, skin, kNodeSpacing_m, nodes);
     out.nodes.resize(static_cast<Eigen::Index>(nodes.size()), 3);
     out.normals.resize(out.nodes.rows(), 3);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -166,8 +184,7 @@ Vec3 ear_shift(const TemplateHead& known, const Similarity& to_new, const Vec3& 
 void add_ears(const TemplateHead& known, const Similarity& to_new, const ShownHead& head,
               Moving& moving) {
     for (const char* id : {"t_l", "t_r"}) {
-        const Vec3 ear = known.landmarks.at(id) + Vec3(0, 0.005, -0.012),
-                   shift = ear_shift(known, to_new, ear, head);
+        const Vec3 ear = ear_of(known, id), shift = ear_shift(known, to_new, ear, head);
         for (Eigen::Index i = 0; i < moving.nodes.rows(); ++i) {
             if ((moving.nodes.row(i).transpose() - to_new(ear)).norm() >
                 to_new.scale * kEarRadius_m)
