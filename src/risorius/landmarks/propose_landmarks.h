@@ -59,10 +59,10 @@ struct LandmarkProposal {
     double metres_per_unit = 1;
     bool guessed_unit = false;
     bool usual_unit = true;  ///< false: in no usual unit it has the size of a head
-    double size = 1;       ///< of the head over the average adult
-    double score = 0;      ///< of the network, 0..1
-    double spread_mm = 0;  ///< median over the points of the network, of the views
-    Vec3 up, forward;      ///< of the head, axes of the mesh as it is read
+    double size = 1;         ///< of the head over the average adult
+    double score = 0;        ///< of the network, 0..1
+    double spread_mm = 0;    ///< median over the points of the network, of the views
+    Vec3 up, forward;        ///< of the head, axes of the mesh as it is read
     std::vector<std::string> templates;
     std::vector<std::string> notes;
     std::vector<LandmarkPicture> pictures;

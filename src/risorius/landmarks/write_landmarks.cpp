@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The file of landmarks, and the report: pictures, a page, and results.json for programs.
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/landmarks/face_network.h"
+#include "risorius/landmarks/detail/face_network.h"
 
 #include <cmath>
 #include <cstring>
