@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-double rounded_to(double value, double step) { return std::round(value / step) * step; }
+double rounded_to(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
 
 const char* word_for(Certainty certainty) {
     switch (certainty) {
@@ -83,10 +83,10 @@ std::string page_of(const LandmarkProposal& proposal) {
     row(html, "unit of the mesh",
         format_number(proposal.metres_per_unit) + " m" +
             (proposal.guessed_unit ? ", told from the size of the face" : ""));
-    row(html, "size", format_number(rounded_to(proposal.size, 1e-3)) + " of the average adult");
-    row(html, "face", "score " + format_number(rounded_to(proposal.score, 1e-3)));
+    row(html, "size", format_number(rounded_to(proposal.size, 1000)) + " of the average adult");
+    row(html, "face", "score " + format_number(rounded_to(proposal.score, 1000)));
     row(html, "views",
-        "differ by " + format_number(rounded_to(proposal.spread_mm, 0.1)) + " mm (median)");
+        "differ by " + format_number(rounded_to(proposal.spread_mm, 10)) + " mm (median)");
     html.close();
     if (!proposal.notes.empty()) {
         html.element("h2", "To look at").open("ul");
@@ -101,8 +101,8 @@ std::string page_of(const LandmarkProposal& proposal) {
         const ProposedLandmark& landmark = proposal.landmarks.at(id);
         html.open("tr", {{"style", colour_for(landmark.certainty())}});
         html.element("td", id).element("td", names[id]);
-        html.element("td", format_number(rounded_to(landmark.expected_mm, 0.1)));
-        html.element("td", format_number(rounded_to(landmark.confidence, 0.01)));
+        html.element("td", format_number(rounded_to(landmark.expected_mm, 10)));
+        html.element("td", format_number(rounded_to(landmark.confidence, 100)));
         html.element("td", landmark.reason).close();
     }
     html.close();
@@ -131,8 +131,8 @@ Json LandmarkProposal::json() const {
     for (const std::string& id : least_sure_first(*this)) {
         const ProposedLandmark& landmark = landmarks.at(id);
         Json item = json_object({{"id", id},
-                                 {"expected_mm", rounded_to(landmark.expected_mm, 0.01)},
-                                 {"confidence", rounded_to(landmark.confidence, 0.001)},
+                                 {"expected_mm", rounded_to(landmark.expected_mm, 100)},
+                                 {"confidence", rounded_to(landmark.confidence, 1000)},
                                  {"certainty", word_for(landmark.certainty())}});
         if (!landmark.reason.empty()) item["reason"] = landmark.reason;
         landmark_list.push_back(item);
@@ -156,7 +156,7 @@ Json LandmarkProposal::landmarks_json() const {
     Json at = Json::object();
     for (const auto& [id, landmark] : landmarks)
         at[id] = json_object({{"xyz", {landmark.xyz.x(), landmark.xyz.y(), landmark.xyz.z()}},
-                              {"confidence", rounded_to(landmark.confidence, 0.001)}});
+                              {"confidence", rounded_to(landmark.confidence, 1000)}});
     return json_object({{"format", "risorius-landmarks"},
                         {"version", 1},
                         {"mesh", mesh},
