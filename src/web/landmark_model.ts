@@ -22,7 +22,7 @@ export const required = ["prn", "n", "sn", "ls", "sto", "li", "pg", "me", "en_l"
 const deepestUndo = 200;
 const fewestForProposals = 4;
 const surelyFound = 0.75; // confidence: 2 mm
-const tooDoubtful = 0.5; // below, only a landmark that a fit needs is shown
+const doubtful = 0.5; // 5 mm; below, only a landmark that a fit needs is shown
 const isKnown = (place: Place) => place.found === "placed" || place.found === "found";
 
 const plus = (a: Vec, b: Vec): Vec => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
@@ -177,17 +177,19 @@ export class LandmarkModel {
     return count;
   }
 
-  /// Takes what the engine has found, where nobody has placed a landmark. What is not sure is proposed. Returns how many, and how many of
-  /// them are to be checked.
+  /// Takes what the engine has found, where nobody has placed a landmark. Of those that a fit needs, the ones that are not sure are proposed,
+  /// so that they are checked; of the others, the ones that are unsure are left to the fit. Returns how many, and how many are to be checked.
   useFound(found: Record<string, { at: Vec; confidence: number }>): { count: number; toCheck: number } {
     const next = { ...this.places };
     let [count, toCheck] = [0, 0];
     for (const [id, { at, confidence }] of Object.entries(found)) {
       if (!landmarkNamed(id) || next[id]?.found === "placed") continue;
-      if (confidence < tooDoubtful && !required.includes(id)) continue;
-      next[id] = { at, found: confidence >= surelyFound ? "found" : "proposed" };
+      const needed = required.includes(id);
+      if (confidence < doubtful && !needed) continue;
+      const check = needed && confidence < surelyFound;
+      next[id] = { at, found: check ? "proposed" : "found" };
       count++;
-      if (confidence < surelyFound) toCheck++;
+      if (check) toCheck++;
     }
     if (count > 0) this.change(next);
     return { count, toCheck };

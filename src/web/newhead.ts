@@ -161,7 +161,7 @@ export class NewHead {
     let found = { count: 0, toCheck: 0 };
     this.do(() => (found = this.model!.useFound(message.landmarks)));
     this.next();
-    if (found.toCheck > 0) this.tell(`${found.count} landmarks found. ${found.toCheck} are to be checked: drag them where they belong, or Enter takes them.`);
+    if (found.toCheck > 0) this.tell(`${found.count} landmarks found. Of those that a rig needs, ${found.toCheck} are to be checked: drag them where they belong, or Enter takes them.`);
     else this.tell(`${found.count} landmarks found.`);
   }
 
