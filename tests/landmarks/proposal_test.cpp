@@ -11,6 +11,7 @@
 #include "risorius/io/read_mesh.h"
 #include "risorius/landmarks/detail/face_network.h"
 #include "risorius/landmarks/detail/face_points.h"
+#include "risorius/landmarks/detail/template_head.h"
 #include "risorius/landmarks/propose_landmarks.h"
 #include "risorius/rig/head.h"
 #include "temporary_folder.h"
@@ -145,6 +146,41 @@ TEST(ProposedLandmarks, AMeshWithoutAFaceIsRefused) {
                            "recognized, found no face in any of 24 orientations"),
               std::string::npos)
         << message;
+}
+
+TEST(ProposedLandmarks, AMeshOfOneTriangleOrOfNoSizeIsRefused) {
+    RISORIUS_SKIP_WITHOUT_WEIGHTS();
+    const TemporaryFolder folder;
+    for (const char* corners : {"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "v 1 2 3\nv 1 2 3\nv 1 2 3\n"}) {
+        std::ofstream(folder / "small.obj") << corners << "f 1 2 3\n";
+        EXPECT_NE(message_of([&] {
+                      propose_landmarks({.mesh = folder / "small.obj", .weights = kWeights});
+                  }).find("small.obj: expected"),
+                  std::string::npos);
+    }
+}
+
+TEST(KnownHeads, TheirLandmarksAreChecked) {
+    const TemporaryFolder folder;
+    rig::Atlas atlas;
+    atlas.landmarks =
+        rig::read_atlas_landmarks(JsonCursor::read_file(kSource / "rigs/standard/landmarks.json"));
+    const geom::PolygonMesh mesh = io::read_mesh(kSource / "tests/data/heads/plain_head.obj");
+    const auto message = [&](const std::string& landmarks) {
+        std::ofstream(folder / "l.json")
+            << R"({"format": "risorius-landmarks", "version": 1, "landmarks": )" << landmarks
+            << "}";
+        const std::string whole =
+            message_of([&] { known_landmarks(folder / "l.json", mesh, atlas); });
+        return whole.substr(whole.find("l.json"));
+    };
+    EXPECT_EQ(message(R"({"prn": {"vertex": 100000000}})"),
+              "l.json:/landmarks/prn/vertex: expected a vertex of the mesh, in [0, " +
+                  std::to_string(mesh.vertex_count() - 1) + "], found 100000000");
+    EXPECT_EQ(message(R"({"nose": {"vertex": 1}})"),
+              "l.json:/landmarks/nose: expected a landmark of the atlas, found \"nose\"");
+    EXPECT_EQ(message(R"({"prn": {"vertex": 1}})"),
+              "l.json:/landmarks: expected the landmarks that a rig needs, found none for \"n\"");
 }
 
 TEST(ProposedLandmarks, AreWrittenWithTheirConfidence) {

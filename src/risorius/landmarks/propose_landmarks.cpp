@@ -34,9 +34,11 @@ std::vector<TemplateHead> read_templates(const LandmarkOptions& options, const r
         files.push_back({adult / "head.obj", adult / "landmarks.json"});
     }
     std::vector<TemplateHead> out;
-    for (const TemplateFiles& file : files)
-        out.push_back(template_head(file.mesh.string(), io::read_mesh(file.mesh),
-                                    rig::read_landmarks(file.landmarks), atlas, network));
+    for (const TemplateFiles& file : files) {
+        const geom::PolygonMesh mesh = io::read_mesh(file.mesh);
+        out.push_back(template_head(file.mesh.string(), mesh,
+                                    known_landmarks(file.landmarks, mesh, atlas), atlas, network));
+    }
     return out;
 }
 

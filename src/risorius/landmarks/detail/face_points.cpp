@@ -114,6 +114,7 @@ Glance glance(const ShownHead& head, const FaceNetwork& network, const Mat3& axe
         high = high.cwiseMax(p);
     }
     const double longest = std::max(high.x() - low.x(), high.y() - low.y());
+    if (!(longest > 0)) return {};
     ViewFrame frame;
     frame.axes = axes;
     frame.width = share * longest * (1 + 2 * kAboveHead);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kWidth_px = 560, kHeight_px = 760;
 constexpr double kSeen_m = 0.30;  // visible height on an average head
+constexpr double kCrownAboveNasion_m = 0.11;
 const Vec3 kSkinPaint(0.86, 0.80, 0.76), kEyePaint(0.98, 0.98, 0.98), kInnerPaint(0.72, 0.52, 0.50);
 
 struct ShownView {
@@ -52,7 +53,10 @@ std::vector<LandmarkPicture> landmark_pictures(
         const bool sure = landmark.certainty() == Certainty::kSure;
         marks.push_back({at.at(id).at, certainty_colour(landmark.certainty()), sure ? 3.5 : 5.0});
     }
-    const double top = at.at("v").at.y(), bottom = at.at("me").at.y();
+    const auto crown = at.find("v");
+    const double top = crown == at.end() ? at.at("n").at.y() + kCrownAboveNasion_m
+                                         : crown->second.at.y(),
+                 bottom = at.at("me").at.y();
     std::vector<LandmarkPicture> out;
     for (const ShownView& view : kShownViews)
         out.push_back({view.name, render::draw_measured(

@@ -23,9 +23,13 @@ struct TemplateHead {
     std::map<std::string, Vec3> landmarks;
 };
 
+/// Reads the landmarks of a mesh, in its units and axes. Throws Error when one that a rig needs is missing.
+std::map<std::string, Vec3> known_landmarks(const std::filesystem::path& file,
+                                            const geom::PolygonMesh& mesh, const rig::Atlas& atlas);
+
 /// `landmarks`: in the units of the mesh. Throws Error when the network does not see the face.
 TemplateHead template_head(const std::string& name, geom::PolygonMesh mesh,
-                           const std::map<std::string, rig::Landmark>& landmarks,
-                           const rig::Atlas& atlas, const FaceNetwork& network);
+                           const std::map<std::string, Vec3>& landmarks, const rig::Atlas& atlas,
+                           const FaceNetwork& network);
 
 }  // namespace risorius::landmarks
