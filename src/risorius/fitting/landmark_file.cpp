@@ -25,17 +25,16 @@ std::map<std::string, rig::Landmark> read_atlas_named_landmarks(
 
 std::vector<std::string> leave_out_unsure(std::map<std::string, rig::Landmark>& landmarks,
                                           const std::filesystem::path& file) {
-    constexpr double kLeast = 0.5;
     std::string ids;
     for (auto at = landmarks.begin(); at != landmarks.end();) {
-        if (at->second.confidence >= kLeast) {
+        if (at->second.confidence >= kLeastConfidence) {
             ++at;
             continue;
         }
         const auto& needed = rig::required_landmarks();
         if (std::find(needed.begin(), needed.end(), at->first) != needed.end())
             throw Error(file.string() + ":/landmarks/" + at->first + "/confidence",
-                        "at least " + format_number(kLeast) +
+                        "at least " + format_number(kLeastConfidence) +
                             " for a landmark that a rig needs (correct it, and take the key out)",
                         format_number(at->second.confidence));
         ids += (ids.empty() ? "" : " ") + at->first;
