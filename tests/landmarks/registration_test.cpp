@@ -57,6 +57,20 @@ class RegistrationTest : public ::testing::Test {
         return 1.02 * out + Vec3(0.01, -0.02, 0.005);
     }
 
+    /// The landmarks of the adult as one head puts them.
+    static std::map<std::string, PlacedLandmark> all_in_place() {
+        std::map<std::string, PlacedLandmark> out;
+        for (const auto& [id, p] : known_->landmarks) out[id] = {p, 0, 1e-3};
+        return out;
+    }
+    static std::map<std::string, JudgedLandmark> judged(
+        const std::map<std::string, PlacedLandmark>& placed) {
+        rig::Atlas atlas;
+        atlas.landmarks = rig::read_atlas_landmarks(JsonCursor::read_file(
+            std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs/standard/landmarks.json"));
+        return judged_landmarks({placed}, known_->head, atlas);
+    }
+
     static TemplateHead* known_;
     static geom::PolygonMesh* mesh_;
 };
@@ -91,32 +105,23 @@ TEST_F(RegistrationTest, AHeadOnItselfStaysWhereItIs) {
 }
 
 TEST_F(RegistrationTest, ALandmarkThatTheOthersContradictIsUnsure) {
-    rig::Atlas atlas;
-    atlas.landmarks = rig::read_atlas_landmarks(JsonCursor::read_file(
-        std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs/standard/landmarks.json"));
-    std::map<std::string, PlacedLandmark> placed;
-    for (const auto& [id, p] : known_->landmarks) placed[id] = {p, 0, 1e-3};
+    auto placed = all_in_place();
     placed["ch_l"].at += Vec3(0.02, 0.01, -0.015);
-    const auto judged = judged_landmarks({placed}, known_->head, atlas);
-    EXPECT_GT(judged.at("ch_l").expected_m, 5e-3);
-    EXPECT_NE(judged.at("ch_l").reason.find("the other landmarks put it"), std::string::npos);
-    EXPECT_LT(judged.at("ch_r").expected_m, 5e-3);
-    EXPECT_LT(judged.at("prn").expected_m, 3e-3);
+    const auto found = judged(placed);
+    EXPECT_GT(found.at("ch_l").expected_m, 5e-3);
+    EXPECT_NE(found.at("ch_l").reason.find("the other landmarks put it"), std::string::npos);
+    EXPECT_LT(found.at("ch_r").expected_m, 5e-3);
+    EXPECT_LT(found.at("prn").expected_m, 3e-3);
 }
 
 TEST_F(RegistrationTest, TheCrownIsTheHighestPointOfTheHead) {
-    rig::Atlas atlas;
-    atlas.landmarks = rig::read_atlas_landmarks(JsonCursor::read_file(
-        std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs/standard/landmarks.json"));
-    std::map<std::string, PlacedLandmark> placed;
-    for (const auto& [id, p] : known_->landmarks) placed[id] = {p, 0, 1e-3};
-    const auto judged = judged_landmarks({placed}, known_->head, atlas);
+    const auto found = judged(all_in_place());
     double highest = -1;
     for (Eigen::Index f = 0; f < known_->head.skin.rows(); ++f)
         for (int k = 0; k < 3; ++k)
             highest = std::max(highest, known_->head.positions(known_->head.skin(f, k), 1));
     // The head frame of the landmarks is turned from that of the mesh by less than a degree.
-    EXPECT_NEAR(judged.at("v").at.y(), highest, 0.2e-3);
+    EXPECT_NEAR(found.at("v").at.y(), highest, 0.2e-3);
 }
 
 }  // namespace
