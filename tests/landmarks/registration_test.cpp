@@ -65,10 +65,14 @@ class RegistrationTest : public ::testing::Test {
     }
     static std::map<std::string, JudgedLandmark> judged(
         const std::map<std::string, PlacedLandmark>& placed) {
+        return judged_on(known_->head, placed);
+    }
+    static std::map<std::string, JudgedLandmark> judged_on(
+        const ShownHead& head, const std::map<std::string, PlacedLandmark>& placed) {
         rig::Atlas atlas;
         atlas.landmarks = rig::read_atlas_landmarks(JsonCursor::read_file(
             std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs/standard/landmarks.json"));
-        return judged_landmarks({placed}, known_->head, atlas);
+        return judged_landmarks({placed}, head, atlas);
     }
 
     static TemplateHead* known_;
@@ -122,6 +126,23 @@ TEST_F(RegistrationTest, TheCrownIsTheHighestPointOfTheHead) {
             highest = std::max(highest, known_->head.positions(known_->head.skin(f, k), 1));
     // The head frame of the landmarks is turned from that of the mesh by less than a degree.
     EXPECT_NEAR(found.at("v").at.y(), highest, 0.2e-3);
+}
+
+TEST_F(RegistrationTest, WhatLiesOnTheEdgeOfAMaskIsUnsure) {
+    ShownHead mask = known_->head;
+    Eigen::Index kept = 0;
+    for (Eigen::Index f = 0; f < mask.skin.rows(); ++f)
+        if (mask.positions(mask.skin(f, 0), 2) > 0.03) mask.skin.row(kept++) = mask.skin.row(f);
+    mask.skin.conservativeResize(kept, 3);
+    mask.skin_tree = geom::SurfaceTree(mask.positions, mask.skin);
+    const auto found = judged_on(mask, all_in_place());
+    for (const char* id : {"t_l", "t_r", "go_l", "op"}) {
+        EXPECT_GE(found.at(id).expected_m, 10e-3) << id;
+        EXPECT_EQ(judged(all_in_place()).at(id).reason, "") << id;
+    }
+    // Lids and lips have edges of their own.
+    for (const char* id : {"prn", "ps_l", "sto", "me", "ma_l"})
+        EXPECT_LT(found.at(id).expected_m, 5e-3) << id;
 }
 
 }  // namespace

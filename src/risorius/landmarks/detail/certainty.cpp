@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "risorius/core/json_cursor.h"
+#include "risorius/geom/surface_topology.h"
+#include "risorius/geom/weld.h"
 #include "risorius/rig/head.h"
 #include "risorius/rig/landmark_check.h"
 
@@ -35,6 +38,7 @@ double open_of(const std::string& id) {
 constexpr double kLowestCrown_mm = 100, kShortestHead_mm = 150, kCrownHalfWidth_mm = 25,
                  kMidlineHalfWidth_mm = 8, kLowestBack_mm = -20;
 constexpr double kFlat_mm = 4;  // a highest point of a flat crown may lie elsewhere by as much
+constexpr double kEdge_m = 4e-3, kBeyondEdge_m = 10e-3;
 // A landmark that the others contradict
 constexpr double kOfContradiction = 0.7;
 
@@ -65,6 +69,31 @@ void find_by_definition(const ShownHead& head, const rig::HeadFrame& frame,
     if (!highest || !farthest) return;
     landmarks.at("v") = {*highest, kFlat_mm * mm, ""};
     landmarks.at("op") = {*farthest, kFlat_mm * mm, ""};
+}
+
+/// A mask ends before the ears: what is put on its edge belongs beyond. Lids, lips and nostrils have edges of their own.
+void doubt_edges(const ShownHead& head, const rig::Atlas& atlas,
+                 std::map<std::string, JudgedLandmark>& landmarks) {
+    static const std::set<std::string> whole{"ear",  "cranium", "forehead", "jaw",
+                                             "chin", "neck",    "cheek"};
+    const geom::WeldedSurface skin = geom::weld(head.positions, head.skin);
+    const geom::SurfaceEdges edges = geom::surface_edges(skin.triangles);
+    for (auto& [id, landmark] : landmarks) {
+        const rig::AtlasLandmark* known = atlas.landmark(id);
+        if (known == nullptr || !whole.count(known->region)) continue;
+        for (int e = 0; e < edges.count(); ++e) {
+            if (edges.triangle_count(e) != 1) continue;
+            const auto [first, second] = edges.vertices[static_cast<std::size_t>(e)];
+            const Vec3 a = skin.positions.row(first).transpose(),
+                       b = skin.positions.row(second).transpose();
+            if (geom::closest_point_on_triangle(landmark.at, a, b, b).squared_distance >
+                kEdge_m * kEdge_m)
+                continue;
+            landmark.expected_m = std::max(landmark.expected_m, kBeyondEdge_m);
+            landmark.reason = "it lies at the edge of the skin";
+            break;
+        }
+    }
 }
 
 std::string whole_mm(double metres) { return format_number(std::round(1e3 * metres)) + " mm"; }
@@ -99,6 +128,7 @@ std::map<std::string, JudgedLandmark> judged_landmarks(
     for (const auto& [id, landmark] : out) positions[id] = landmark.at;
     const rig::HeadFrame frame = rig::find_head_frame(positions, atlas, 1.0);
     find_by_definition(head, frame, out);
+    doubt_edges(head, atlas, out);
     for (auto& [id, p] : positions) p = frame.to_head(out.at(id).at);
     for (const rig::LandmarkPrediction& doubt :
          rig::doubtful_landmarks(positions, atlas, frame.size)) {
