@@ -45,12 +45,15 @@ std::vector<TemplateHead> read_templates(const LandmarkOptions& options, const r
 /// From the frame of the first template to the mesh.
 Similarity to_mesh_of(const TemplateHead& known, const FacePoints& face) {
     std::vector<Vec3> from, to;
+    std::vector<double> weights;
     for (std::size_t k = 0; k < face.points.size(); ++k) {
         if (!(known.face[k].weight > 0) || !(face.points[k].weight > 0)) continue;
         from.push_back(known.face[k].at);
         to.push_back(face.points[k].at);
+        const double spread = std::max(face.points[k].spread, face.spread);
+        weights.push_back(1 / (spread * spread));
     }
-    return nearest_similarity(from, to);
+    return nearest_similarity(from, to, weights);
 }
 
 /// The mesh and its points in the frame of the templates.

@@ -38,7 +38,7 @@ double open_of(const std::string& id) {
 constexpr double kLowestCrown_mm = 100, kShortestHead_mm = 150, kCrownHalfWidth_mm = 25,
                  kMidlineHalfWidth_mm = 8, kLowestBack_mm = -20;
 constexpr double kFlat_mm = 4;  // a highest point of a flat crown may lie elsewhere by as much
-constexpr double kEdge_m = 4e-3, kBeyondEdge_m = 10e-3;
+constexpr double kEdge_m = 5e-3, kBeyondEdge_m = 10e-3;
 // A landmark that the others contradict
 constexpr double kOfContradiction = 0.7;
 

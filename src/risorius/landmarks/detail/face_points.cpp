@@ -57,11 +57,14 @@ ViewFrame turned(const ViewFrame& frame, const Angles& angles) {
 std::vector<Sighting> lifted(const ShownHead& head, const ViewFrame& frame,
                              const FaceAnswer& answer) {
     std::vector<Sighting> out;
+    std::vector<double> cosines;
+    double sum = 0;
     const Vec3 viewer = frame.viewer();
     for (const Vec2& px : answer.points) {
         const Vec3 plane = frame.on_plane(px);
         const auto hit = head.tree.cast(viewer, plane - viewer);
         if (!hit) {
+            cosines.push_back(0);
             out.push_back({plane, 0});
             continue;
         }
@@ -69,9 +72,15 @@ std::vector<Sighting> lifted(const ShownHead& head, const ViewFrame& frame,
         for (int k = 0; k < 3; ++k)
             normal += hit->barycentric[k] *
                       head.normals.row(head.triangles(hit->triangle, k)).transpose();
-        const double cosine = std::abs(normal.normalized().dot((viewer - plane).normalized()));
-        const double above = std::max(0.0, cosine - kGrazing);
-        out.push_back({hit->point, above * above});
+        cosines.push_back(normal.normalized().dot((viewer - plane).normalized()));
+        sum += cosines.back();
+        out.push_back({hit->point, 0});
+    }
+    // Through an open lid, a ray meets the inside of the head. Which side is the outside, most of the points say.
+    const double outside = sum < 0 ? -1 : 1;
+    for (std::size_t k = 0; k < out.size(); ++k) {
+        const double above = std::max(0.0, outside * cosines[k] - kGrazing);
+        out[k].weight = above * above;
     }
     return out;
 }

@@ -148,9 +148,10 @@ Vec3 ear_shift(const TemplateHead& known, const Similarity& to_new, const Vec3& 
     std::sort(patch.begin(), patch.end());
     patch.erase(std::unique(patch.begin(), patch.end()), patch.end());
     patch = spread_out(known.head.positions, patch, 4e-3);
-    constexpr double kReach_m = 12e-3;
+    constexpr double kReach_m = 12e-3, kPriceOfShift = 0.1;
     const auto misfit = [&](const Vec3& shift) {
-        double sum = 0;
+        // Without a price, the ear of a head that ends behind it would fit a smooth cheek better.
+        double sum = kPriceOfShift * shift.squaredNorm() * static_cast<double>(patch.size());
         for (const int v : patch) {
             const Vec3 p = to_new(known.head.positions.row(v).transpose()) + shift;
             const Vec3 normal = to_new.rotation * known.head.normals.row(v).transpose();
