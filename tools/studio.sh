@@ -11,6 +11,7 @@ if command -v npm >/dev/null; then "$root/tools/setup.sh" build; else "$root/too
 (
     cd "$root"
     tools/web/build_page.sh
+    tools/web/fetch_weights.sh
     cmake --preset release --log-level=WARNING
     cmake --build --preset release --target risorius
 )

@@ -7,7 +7,8 @@ import { landmarkNamed, landmarkTable } from "./landmark_table.js";
 import type { Vec } from "./protocol.js";
 
 /// How a landmark came to its place.
-export type Found = "placed" | "mirrored" | "proposed";
+/// "found": by the engine, surely. It need not be checked.
+export type Found = "placed" | "found" | "mirrored" | "proposed";
 
 export interface Place {
   at: Vec; ///< in units of the mesh
@@ -20,6 +21,9 @@ export type Places = Record<string, Place>;
 export const required = ["prn", "n", "sn", "ls", "sto", "li", "pg", "me", "en_l", "en_r", "ex_l", "ex_r", "ps_l", "ps_r", "pi_l", "pi_r", "ch_l", "ch_r", "t_l", "t_r"];
 const deepestUndo = 200;
 const fewestForProposals = 4;
+const surelyFound = 0.75; // confidence: 2 mm
+const doubtful = 0.5; // 5 mm; below, only a landmark that a fit needs is shown
+const isKnown = (place: Place) => place.found === "placed" || place.found === "found";
 
 const plus = (a: Vec, b: Vec): Vec => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
 const minus = (a: Vec, b: Vec): Vec => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
@@ -136,7 +140,7 @@ export class LandmarkModel {
     const next: Places = { ...this.places, [id]: { at, found: "placed" } };
     const partner = partnerOf(id);
     if (mirror && partner && next[partner]?.found !== "placed") {
-      const known = this.positions(next, (place) => place.found === "placed");
+      const known = this.positions(next, isKnown);
       delete known[id];
       const plane = symmetryPlane(known) ?? symmetryPlane({ ...known, [id]: at });
       if (plane) {
@@ -160,7 +164,7 @@ export class LandmarkModel {
 
   /// Proposes all landmarks of a list that nobody has placed. Returns how many.
   propose(ids: string[]): number {
-    const map = mapOf(this.positions(this.places, (place) => place.found === "placed"));
+    const map = mapOf(this.positions(this.places, isKnown));
     if (!map) return 0;
     const next = { ...this.places };
     let count = 0;
@@ -171,6 +175,24 @@ export class LandmarkModel {
       }
     if (count > 0) this.change(next);
     return count;
+  }
+
+  /// Takes what the engine has found, where nobody has placed a landmark. Of those that a fit needs, the ones that are not sure are proposed,
+  /// so that they are checked; of the others, the ones that are unsure are left to the fit. Returns how many, and how many are to be checked.
+  useFound(found: Record<string, { at: Vec; confidence: number }>): { count: number; toCheck: number } {
+    const next = { ...this.places };
+    let [count, toCheck] = [0, 0];
+    for (const [id, { at, confidence }] of Object.entries(found)) {
+      if (!landmarkNamed(id) || next[id]?.found === "placed") continue;
+      const needed = required.includes(id);
+      if (confidence < doubtful && !needed) continue;
+      const check = needed && confidence < surelyFound;
+      next[id] = { at, found: check ? "proposed" : "found" };
+      count++;
+      if (check) toCheck++;
+    }
+    if (count > 0) this.change(next);
+    return { count, toCheck };
   }
 
   /// Where a landmark is, or should be; null: not enough is known.
@@ -215,6 +237,6 @@ export class LandmarkModel {
   }
 
   get unchecked(): string[] {
-    return landmarkTable.map((one) => one.id).filter((id) => this.places[id] && this.places[id].found !== "placed");
+    return landmarkTable.map((one) => one.id).filter((id) => this.places[id] && !isKnown(this.places[id]));
   }
 }

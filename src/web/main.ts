@@ -261,6 +261,7 @@ function takeOther(message: Record<string, any>): void {
   if (message.type === "steers") say("This page steers now.", true);
   if (message.type === "meshes") newHead.useMeshes(message.files);
   if (message.type === "landmarks_saved") newHead.useSaved(message.path);
+  if (message.type === "landmarks_found") newHead.useFound(message);
   if (message.type === "fit") newHead.useFit(message);
   if (message.type === "files") showFiles(message.scripts, message.samples);
 }

@@ -37,6 +37,7 @@ export class NewHead {
     click("newhead-undo", () => this.do(() => this.model!.undo()));
     click("newhead-redo", () => this.do(() => this.model!.redo()));
     click("newhead-propose", () => this.propose());
+    click("newhead-find", () => void this.find());
     click("newhead-save", () => void this.send("save_landmarks", false));
     click("newhead-fit", () => void this.send("fit", false));
     click("newhead-open", () => {
@@ -146,6 +147,24 @@ export class NewHead {
     if (count > 0) this.next();
   }
 
+  private async find(): Promise<void> {
+    const wrong = await this.actions.ask({ type: "find_landmarks" });
+    if (wrong) this.tell(wrong, true);
+  }
+
+  useFound(message: Record<string, any>): void {
+    const running = message.state === "running";
+    byId<HTMLButtonElement>("newhead-find").disabled = running;
+    if (running) return this.tell("Looking for the face…");
+    if (message.state !== "done") return this.tell(String(message.text), true);
+    if (message.path !== this.mesh?.file || !this.model) return;
+    let found = { count: 0, toCheck: 0 };
+    this.do(() => (found = this.model!.useFound(message.landmarks)));
+    this.next();
+    if (found.toCheck > 0) this.tell(`${found.count} landmarks found. Of those that a rig needs, ${found.toCheck} are to be checked: drag them where they belong, or Enter takes them.`);
+    else this.tell(`${found.count} landmarks found.`);
+  }
+
   private async send(type: "fit" | "save_landmarks", replace: boolean): Promise<void> {
     const landmarks = Object.fromEntries(Object.entries(this.model!.places).map(([id, place]) => [id, place.at]));
     const quick = byId<HTMLInputElement>("newhead-quick").checked;
@@ -221,11 +240,12 @@ export class NewHead {
     const here = places[this.chosen];
     byId("newhead-name").textContent = `${landmarkLabel(this.chosen)} (${this.chosen})`;
     byId("newhead-definition").textContent = one.definition;
-    byId<HTMLButtonElement>("newhead-accept").disabled = !here || here.found === "placed";
+    byId<HTMLButtonElement>("newhead-accept").disabled = !here || here.found === "placed" || here.found === "found";
     byId<HTMLButtonElement>("newhead-remove").disabled = !here;
     byId<HTMLButtonElement>("newhead-undo").disabled = !model?.canUndo;
     byId<HTMLButtonElement>("newhead-redo").disabled = !model?.canRedo;
     for (const id of ["newhead-save", "newhead-propose"]) byId<HTMLButtonElement>(id).disabled = !model || Object.keys(places).length === 0;
+    byId<HTMLButtonElement>("newhead-find").disabled = !model;
     const missing = model?.missing.length ?? required.length;
     byId<HTMLButtonElement>("newhead-fit").disabled = missing > 0;
     const unchecked = model?.unchecked.length ?? 0;

@@ -12,7 +12,7 @@ import type { MeshFrame, Vec } from "./protocol.js";
 const viewAngle_deg = 20;
 const click_px = 4;
 const near_px = 11;
-const colours: Record<Found, number> = { placed: 0x57c785, mirrored: 0xffb454, proposed: 0x7fb6f5 };
+const colours: Record<Found, number> = { placed: 0x57c785, found: 0x57c785, mirrored: 0xffb454, proposed: 0x7fb6f5 };
 
 export interface HeadActions {
   put(at: Vec): void;

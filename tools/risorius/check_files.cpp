@@ -100,6 +100,12 @@ void check_landmarks(const fs::path& file, CheckResult& result) {
     const auto landmarks = fitting::read_atlas_named_landmarks(file, atlas);
     for (const std::string& id : rig::required_landmarks())
         if (!landmarks.count(id)) result.notes.push_back("no \"" + id + "\", which fit needs");
+    for (const std::string& id : rig::required_landmarks())
+        if (const auto at = landmarks.find(id);
+            at != landmarks.end() && at->second.confidence < fitting::kLeastConfidence)
+            result.notes.push_back("\"" + id + "\" has a confidence of " +
+                                   format_number(at->second.confidence) +
+                                   ": fit needs it corrected, without the key");
 }
 
 // Only the skin has to be a manifold surface. Eyes and teeth may be open and intersect.

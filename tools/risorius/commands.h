@@ -16,6 +16,7 @@ void add_align(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_sheet(CLI::App& app);
 void add_fit(CLI::App& app);
+void add_landmarks(CLI::App& app);
 void add_head(CLI::App& app);
 void add_check(CLI::App& app);
 void add_info(CLI::App& app);

@@ -7,10 +7,12 @@
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
 #include "risorius/fitting/fit_rig.h"
+#include "risorius/landmarks/propose_landmarks.h"
 #include "risorius/rig/head.h"
 #include "risorius/scene/rig_files.h"
 #include "risorius/talk/rig_voice_file.h"
 #include "tools/risorius/commands.h"
+#include "tools/risorius/part_option.h"
 
 namespace risorius::cli {
 
@@ -26,19 +28,6 @@ struct FitArguments {
     bool no_calibrate = false, muscles_apart = false;
     std::filesystem::path voice;
 };
-
-// Reads a part such as "skin=face,neck".
-void add_part(const std::string& text, std::map<std::string, std::vector<std::string>>& parts) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals + 1 == text.size())
-        throw Error("--part", "ROLE=GROUP,GROUP", "\"" + text + "\"");
-    std::vector<std::string>& groups = parts[text.substr(0, equals)];
-    for (std::size_t begin = equals + 1; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        groups.push_back(text.substr(begin, end - begin));
-        begin = end + 1;
-    }
-}
 
 std::string joined(const std::vector<std::string>& list, std::size_t max = 1000) {
     std::string out;
@@ -109,6 +98,38 @@ void run_voice(const FitArguments& arguments) {
     if (!arguments.common.quiet) std::printf("%s\n", file.string().c_str());
 }
 
+// Proposes landmarks and writes them beside the rig. Refuses where a landmark that a rig needs is not sure.
+void find_landmarks(fitting::FitOptions& options, const ProgressMonitor& monitor) {
+    namespace fs = std::filesystem;
+    fs::path file = options.out;
+    file.replace_filename(options.out.stem().string() + "_landmarks.json");
+    if (fs::exists(file))
+        throw Error(file.string(),
+                    "no file, since the landmarks that are found are written there (--landmarks "
+                    "reads them)",
+                    "one");
+    const landmarks::LandmarkProposal proposal =
+        landmarks::propose_landmarks({.mesh = options.mesh,
+                                      .metres_per_unit = options.metres_per_unit,
+                                      .parts = options.parts,
+                                      .standard = options.standard},
+                                     monitor);
+    if (const std::vector<std::string> unsure = proposal.unsure_required(); !unsure.empty())
+        throw Error(options.mesh.string(),
+                    "a face on which the landmarks that a rig needs are found surely (risorius "
+                    "landmarks proposes them for you to correct)",
+                    "doubt about " + joined(unsure));
+    landmarks::write_landmarks(proposal, file);
+    options.landmarks = file;
+    if (!proposal.usual_unit) options.metres_per_unit = proposal.metres_per_unit;
+    std::size_t sure = 0;
+    for (const auto& [id, landmark] : proposal.landmarks)
+        sure += landmark.certainty() == landmarks::Certainty::kSure;
+    options.landmarks_note =
+        "the landmarks were found in pictures of the mesh, " + std::to_string(sure) + " of " +
+        std::to_string(proposal.landmarks.size()) + " surely; they are in " + file.string();
+}
+
 void run(FitArguments& arguments) {
     if (!arguments.voice.empty()) {
         if (!arguments.options.mesh.empty() || !arguments.options.out.empty())
@@ -116,9 +137,8 @@ void run(FitArguments& arguments) {
         return run_voice(arguments);
     }
     require(!arguments.options.mesh.empty(), "MESH");
-    require(!arguments.options.landmarks.empty(), "--landmarks");
     require(!arguments.options.out.empty(), "--out");
-    for (const std::string& part : arguments.parts) add_part(part, arguments.options.parts);
+    arguments.options.parts = parts_of(arguments.parts);
     if (arguments.tables != "inline" && arguments.tables != "reference")
         throw Error("--tables", "\"inline\" or \"reference\"", "\"" + arguments.tables + "\"");
     arguments.options.inline_tables = arguments.tables == "inline";
@@ -130,7 +150,12 @@ void run(FitArguments& arguments) {
     fitting::FitReport report;
     {
         ProgressBar bar(arguments.common);
-        report = fitting::fit_rig(arguments.options, bar.monitor());
+        ProgressMonitor monitor = bar.monitor();
+        if (arguments.options.landmarks.empty()) {
+            find_landmarks(arguments.options, monitor.subrange(0, 0.1));
+            monitor = monitor.subrange(0.1, 1);
+        }
+        report = fitting::fit_rig(arguments.options, monitor);
     }
     if (arguments.common.json)
         std::printf("%s\n", json_text(report.json(), 2).c_str());
@@ -141,12 +166,16 @@ void run(FitArguments& arguments) {
 }  // namespace
 
 void add_fit(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("fit", "Fit a muscle rig to a face mesh with landmarks");
+    CLI::App* command = app.add_subcommand("fit", "Fit a muscle rig to a face mesh");
     auto arguments = std::make_shared<FitArguments>();
     fitting::FitOptions& options = arguments->options;
     // Required unless there is --voice, see require().
     command->add_option("MESH", options.mesh, "The mesh of the face: OBJ, PLY, glTF, FBX, ...");
-    command->add_option("--landmarks", options.landmarks, "The file of its landmarks");
+    command->add_option("--landmarks", options.landmarks,
+                        "The file of its landmarks. Default: they are found in pictures "
+                        "of the mesh and written beside the rig as RIG_landmarks.json, as by "
+                        "`risorius landmarks`; where one that a rig needs is not sure, nothing "
+                        "is fitted");
     command->add_option("-o,--out", options.out, "The rig to write");
     command->add_option(
         "--voice", arguments->voice,
@@ -190,7 +219,8 @@ void add_fit(CLI::App& app) {
     command->footer(
         "Landmarks that have to be given (rigs/standard/landmarks.json says where they lie):\n " +
         required +
-        "\n\nExample:\n  risorius fit head.obj --landmarks landmarks.json -o anna/rig.json\n"
+        "\n\nExample:\n  risorius fit head.obj -o anna/rig.json\n  risorius fit head.obj "
+        "--landmarks landmarks.json -o anna/rig.json\n"
         "  risorius fit --voice anna/rig.json");
     command->callback([arguments] { run(*arguments); });
 }

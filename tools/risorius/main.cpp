@@ -176,6 +176,7 @@ int run(int argc, char** argv) {
     cli::add_align(app);
     cli::add_compare(app);
     cli::add_sheet(app);
+    cli::add_landmarks(app);
     cli::add_fit(app);
     cli::add_head(app);
     cli::add_check(app);

@@ -287,7 +287,8 @@ void Studio::text(serve::Peer& peer, const std::string& message) {
             save(cursor);
         } else if (is("say")) {
             say(peer, cursor);
-        } else if (is("meshes") || is("mesh") || is("save_landmarks") || is("fit")) {
+        } else if (is("meshes") || is("mesh") || is("save_landmarks") || is("fit") ||
+                   is("find_landmarks")) {
             new_head(peer, type.get<std::string>(), cursor);
         } else if (is("open")) {
             const auto sample = cursor.find("sample");
@@ -353,12 +354,18 @@ void Studio::new_head(serve::Peer& peer, const std::string& type, const JsonCurs
     if (type == "meshes") return peer.send_text(head_->meshes());
     if (type == "mesh")
         return peer.send_binary(std::make_shared<const std::string>(head_->mesh(message)));
+    const auto tell = [this](const std::string& text) { tell_all(text); };
+    if (type == "find_landmarks") {
+        head_->find(message, *server_, tell);
+        return tell_all(
+            json_text(json_object({{"type", "landmarks_found"}, {"state", "running"}})));
+    }
     message.allow_keys({"type", "id", "landmarks", "replace", "quick"});
     const fs::path file = head_->write_landmarks(message);
     const std::string name = file.lexically_proximate(folder_).generic_string();
     tell_all(json_text(json_object({{"type", "landmarks_saved"}, {"path", name}})));
     if (type != "fit") return;
-    head_->fit(message, file, *server_, [this](const std::string& text) { tell_all(text); });
+    head_->fit(message, file, *server_, tell);
     tell_all(json_text(json_object({{"type", "fit"}, {"state", "running"}})));
 }
 

@@ -11,6 +11,7 @@
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/io/read_mesh.h"
+#include "risorius/landmarks/propose_landmarks.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/run_program.h"
 #include "risorius/view/scene_frame.h"
@@ -122,6 +123,37 @@ void StudioHead::fit(const JsonCursor& message, const fs::path& landmarks, serve
             done(text);
         });
     });
+}
+
+void StudioHead::find(const JsonCursor& message, serve::WebServer& server,
+                      std::function<void(const std::string&)> done) {
+    message.allow_keys({"type", "id"});
+    if (!open_) message.fail("a mesh that is open", "none");
+    if (searching_) message.fail("one search at a time", "another that runs");
+    searching_ = true;
+    const Eigen::Matrix4d to_page = open_->to_file.inverse();
+    search_ = std::make_unique<std::jthread>(
+        [this, file = open_->file, path = name_of(open_->file), to_page, &server, done] {
+            Json told = json_object({{"type", "landmarks_found"}, {"path", path}});
+            try {
+                Json places = Json::object();
+                for (const auto& [id, landmark] :
+                     landmarks::propose_landmarks({.mesh = file}).landmarks) {
+                    const Vec3 p = (to_page * landmark.xyz.homogeneous()).head<3>();
+                    places[id] = json_object(
+                        {{"at", {p.x(), p.y(), p.z()}}, {"confidence", landmark.confidence}});
+                }
+                told["state"] = "done";
+                told["landmarks"] = places;
+            } catch (const std::exception& error) {
+                told["state"] = "failed";
+                told["text"] = error.what();
+            }
+            server.post([this, done, text = json_text(told)] {
+                searching_ = false;
+                done(text);
+            });
+        });
 }
 
 }  // namespace risorius::cli

@@ -36,8 +36,17 @@ class StudioHead {
     void fit(const JsonCursor& message, const std::filesystem::path& landmarks,
              serve::WebServer& server, std::function<void(const std::string&)> done);
 
-    /// Waits for a fit that runs.
-    void finish() { fit_.reset(); }
+    /// Finds the landmarks of the mesh that was read last, in pictures of it. `done` gets {"type": "landmarks_found", "state": "done" or
+    /// "failed", "path": of the mesh, "landmarks": {"n": {"at": position in the page, "confidence": 0..1}}, "text": what was wrong} on the
+    /// thread of the server. Throws Error while another search runs.
+    void find(const JsonCursor& message, serve::WebServer& server,
+              std::function<void(const std::string&)> done);
+
+    /// Waits for a fit or a search that runs.
+    void finish() {
+        fit_.reset();
+        search_.reset();
+    }
 
   private:
     struct Opened {
@@ -49,8 +58,8 @@ class StudioHead {
 
     std::filesystem::path folder_;
     std::optional<Opened> open_;
-    std::unique_ptr<std::jthread> fit_;
-    bool running_ = false;
+    std::unique_ptr<std::jthread> fit_, search_;
+    bool running_ = false, searching_ = false;
 };
 
 }  // namespace risorius::cli

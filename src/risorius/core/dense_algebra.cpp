@@ -33,6 +33,10 @@ Eigen::MatrixXd solved_for(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd&
 
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix) { return matrix.fullPivLu().inverse(); }
 
+Eigen::MatrixXd inverse_of_positive(const Eigen::MatrixXd& matrix) {
+    return matrix.llt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+}
+
 Eigen::VectorXd solved_symmetric(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
     return matrix.ldlt().solve(right);
 }

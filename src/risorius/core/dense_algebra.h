@@ -32,6 +32,8 @@ Eigen::MatrixXd solved_for(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd&
 /// The inverse of a matrix that is not singular.
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix);
 
+/// The inverse of a symmetric matrix with positive eigenvalues. Only the lower triangle is read.
+Eigen::MatrixXd inverse_of_positive(const Eigen::MatrixXd& matrix);
 /// Solves matrix x = right for x. The matrix is symmetric and may be singular.
 Eigen::VectorXd solved_symmetric(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 /// The same for several right sides, one solution per column.

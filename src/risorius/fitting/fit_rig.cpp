@@ -339,9 +339,11 @@ FitReport fit_rig(const FitOptions& options, const ProgressMonitor& monitor) {
     geom::PolygonMesh mesh =
         io::read_mesh(options.mesh, {.metres_per_unit = 1, .stopped = monitor.stopped});
     FitReport report;
-    report.notes = mesh.notes;
+    if (!options.landmarks_note.empty()) report.notes.push_back(options.landmarks_note);
+    add_notes(mesh.notes, report);
     add_notes(scene::picture_problems(mesh), report);
     rig.landmarks = read_atlas_named_landmarks(options.landmarks, rig.atlas.landmarks);
+    add_notes(leave_out_unsure(rig.landmarks, options.landmarks), report);
     add_notes(take_file_coordinates(rig.landmarks, mesh, options.mesh, options.landmarks), report);
     const LandmarkPositions landmarks = landmark_positions(rig, mesh, options.landmarks);
     check_sides(landmarks, rig.atlas, options.landmarks);

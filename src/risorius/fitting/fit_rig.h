@@ -35,6 +35,7 @@ struct FitOptions {
     /// True: double, flipped and empty faces and loose bits of a scan are mended (geom/repair_mesh.h); the mended mesh is written
     /// next to the rig
     bool repair = false;
+    std::string landmarks_note{};    ///< how the landmarks were found; the first of the notes
     std::filesystem::path report{};  ///< folder for a page with pictures; empty: none
     /// True: the muscles that the standard table lists as solids are simulated as solids, not as bundles of fibres
     bool solids = false;

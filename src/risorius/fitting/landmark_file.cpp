@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "risorius/rig/head.h"
+
 namespace risorius::fitting {
 
 std::map<std::string, rig::Landmark> read_atlas_named_landmarks(
@@ -19,6 +21,27 @@ std::map<std::string, rig::Landmark> read_atlas_named_landmarks(
                     "\"" + id + "\"");
     }
     return landmarks;
+}
+
+std::vector<std::string> leave_out_unsure(std::map<std::string, rig::Landmark>& landmarks,
+                                          const std::filesystem::path& file) {
+    std::string ids;
+    for (auto at = landmarks.begin(); at != landmarks.end();) {
+        if (at->second.confidence >= kLeastConfidence) {
+            ++at;
+            continue;
+        }
+        const auto& needed = rig::required_landmarks();
+        if (std::find(needed.begin(), needed.end(), at->first) != needed.end())
+            throw Error(file.string() + ":/landmarks/" + at->first + "/confidence",
+                        "at least " + format_number(kLeastConfidence) +
+                            " for a landmark that a rig needs (correct it, and take the key out)",
+                        format_number(at->second.confidence));
+        ids += (ids.empty() ? "" : " ") + at->first;
+        at = landmarks.erase(at);
+    }
+    if (ids.empty()) return {};
+    return {"landmarks of little confidence are left to the atlas: " + ids};
 }
 
 }  // namespace risorius::fitting

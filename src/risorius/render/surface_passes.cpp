@@ -105,58 +105,7 @@ SeenSurface SurfacePasses::look(const Points& positions) const {
     if (positions.rows() != rest_.rows())
         throw Error("pose/positions", std::to_string(rest_.rows()) + " rows",
                     std::to_string(positions.rows()));
-    const auto pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-    SeenSurface seen{positions, std::vector<int>(pixels, -1), std::vector<float>(pixels, 0),
-                     std::vector<float>(pixels, 0), std::vector<float>(pixels, 2)};
-
-    // Per vertex: x to the right and y down in pixels, depth, and 1 / w. All are linear in the picture.
-    Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> corner(positions.rows(), 4);
-    for (Eigen::Index v = 0; v < positions.rows(); ++v) {
-        const Eigen::Vector4d clip =
-            clip_from_world_ * Vec3(positions.row(v).transpose()).homogeneous();
-        const double fraction = clip.w() > 0 ? 1 / clip.w() : 0;  // 0: behind the camera
-        corner.row(v) << (clip.x() * fraction * 0.5 + 0.5) * width_,
-            (0.5 - clip.y() * fraction * 0.5) * height_, clip.z() * fraction, fraction;
-    }
-
-    for (Eigen::Index f = 0; f < triangles_.rows(); ++f) {
-        const Eigen::Vector4d a = corner.row(triangles_(f, 0)), b = corner.row(triangles_(f, 1)),
-                              c = corner.row(triangles_(f, 2));
-        if (a[3] <= 0 || b[3] <= 0 || c[3] <= 0) continue;
-        const double area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
-        if (area == 0) continue;
-        const auto first = [](double x, double y, double z, int end) {
-            return static_cast<int>(
-                std::clamp(std::ceil(std::min({x, y, z}) - 0.5), 0.0, static_cast<double>(end)));
-        };
-        const auto last = [](double x, double y, double z, int end) {
-            return static_cast<int>(std::clamp(std::floor(std::max({x, y, z}) - 0.5), -1.0,
-                                               static_cast<double>(end - 1)));
-        };
-        const int x0 = first(a[0], b[0], c[0], width_), x1 = last(a[0], b[0], c[0], width_);
-        const int y0 = first(a[1], b[1], c[1], height_), y1 = last(a[1], b[1], c[1], height_);
-        for (int y = y0; y <= y1; ++y)
-            for (int x = x0; x <= x1; ++x) {
-                const double px = x + 0.5, py = y + 0.5;
-                const double wb =
-                    ((px - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (py - a[1])) / area;
-                const double wc =
-                    ((b[0] - a[0]) * (py - a[1]) - (px - a[0]) * (b[1] - a[1])) / area;
-                const double wa = 1 - wb - wc;
-                if (wa < 0 || wb < 0 || wc < 0) continue;
-                const double z = wa * a[2] + wb * b[2] + wc * c[2];
-                const std::size_t i =
-                    static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                    static_cast<std::size_t>(x);
-                if (static_cast<float>(z) >= seen.nearness[i] || z < -1) continue;
-                const double whole = wa * a[3] + wb * b[3] + wc * c[3];
-                seen.nearness[i] = static_cast<float>(z);
-                seen.triangle[i] = static_cast<int>(f);
-                seen.second[i] = static_cast<float>(wb * b[3] / whole);
-                seen.third[i] = static_cast<float>(wc * c[3] / whole);
-            }
-    }
-    return seen;
+    return see_surface(positions, triangles_, clip_from_world_, width_, height_);
 }
 
 Vec3 SurfacePasses::at(const SeenSurface& seen, std::size_t pixel, const Points& positions) const {

@@ -15,6 +15,7 @@
 
 #include "risorius/core/types.h"
 #include "risorius/render/scene.h"
+#include "risorius/render/seen_surface.h"
 
 namespace risorius::render {
 
@@ -40,17 +41,6 @@ enum class Part : std::uint8_t {
 };
 /// "background", "skin", ... in the order of Part.
 const std::vector<std::string>& part_names();
-
-/// A rasterized pose: per pixel, rows from the top, the nearest triangle and the point on it.
-struct SeenSurface {
-    Points positions;           ///< V x 3, m, world
-    std::vector<int> triangle;  ///< -1: background
-    /// Barycentric weights of the second and third corner of the triangle
-    std::vector<float> second, third;
-    /// Depth in clip space after division by w; it grows with distance, in spite of its name: -1 nearest, 1 farthest, 2 for the
-    /// background
-    std::vector<float> nearness;
-};
 
 class HairArea;
 

@@ -203,12 +203,14 @@ std::map<std::string, Landmark> read_landmark_table(JsonCursor table) {
     std::map<std::string, Landmark> out;
     for (const std::string& id : table.keys()) {
         const JsonCursor item = table.at(id);
-        item.allow_keys({"vertex", "xyz", "distance_mm"});
+        item.allow_keys({"vertex", "xyz", "distance_mm", "confidence"});
         Landmark landmark;
         const auto vertex = item.find("vertex"), xyz = item.find("xyz");
         if (vertex.has_value() == xyz.has_value()) item.fail("either \"vertex\" or \"xyz\"");
         if (vertex) landmark.vertex = vertex->integer(0, std::numeric_limits<int>::max());
         if (xyz) landmark.xyz = xyz->vec3();
+        if (const auto confidence = item.find("confidence"))
+            landmark.confidence = confidence->number({0, 1});
         out[id] = landmark;
     }
     return out;

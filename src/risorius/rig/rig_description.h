@@ -30,6 +30,7 @@ const std::vector<std::string_view>& part_roles();
 struct Landmark {
     int vertex = -1;          ///< of the mesh file, or -1 when xyz is given
     Vec3 xyz = Vec3::Zero();  ///< mesh units
+    double confidence = 1;    ///< 0..1, of a landmark that a program has placed
 };
 
 /// Motion of the mandible: a rotation about the hinge axis, and a slide of the condyles that grows with the opening.

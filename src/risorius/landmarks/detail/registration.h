@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// Brings a head whose landmarks are known onto another one, and the landmarks with it.
+///
+/// 1. A similarity of the points that the network sees on both heads (an affine map would misplace the ears).
+/// 2. A smooth field of what remains, each point as uncertain as the views differ.
+/// 3. The ears: the template's are shifted over a grid to where they fit best.
+/// 4. Non-rigid registration of the rest: nodes spread over the template's skin are drawn to the nearest skin with a similar
+///    normal, point to plane, in three scales (Amberg, Romdhani, Vetter 2007, Optimal step nonrigid ICP, for the idea of scales).
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "risorius/landmarks/detail/template_head.h"
+
+namespace risorius::landmarks {
+
+/// A landmark on the new head as one template puts it.
+struct PlacedLandmark {
+    Vec3 at;  ///< m, on the skin
+    double off_m =
+        0;  ///< of the template's skin around it from the new one, after the registration
+    double unseen_m =
+        0;  ///< deviation that what the network sees leaves there, before the registration
+};
+
+/// `head` and `face`: the new one, in the frame and size of the template.
+std::map<std::string, PlacedLandmark> placed_landmarks(const TemplateHead& known,
+                                                       const ShownHead& head,
+                                                       const std::vector<SeenPoint>& face);
+
+}  // namespace risorius::landmarks
