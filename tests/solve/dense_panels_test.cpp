@@ -43,49 +43,49 @@ void for_all_sizes(const Check& check) {
 }
 
 TYPED_TEST(DensePanels, EliminateSolvesTheTriangleAndSubtractsWhatIsBelow) {
-    using Vector = typename TestFixture::Vector;
+    using Numbers = typename TestFixture::Vector;
     for_all_sizes([&](int width, int below) {
         const int tall = width + below;
         const auto panel = this->some_panel(tall, width);
-        const Vector known = Vector::LinSpaced(width, -1, 2);
-        Vector right = Vector::Constant(tall, TypeParam(0.25));
+        const Numbers known = Numbers::LinSpaced(width, -1, 2);
+        Numbers right = Numbers::Constant(tall, TypeParam(0.25));
         right.head(width) = panel.topRows(width).template triangularView<Eigen::Lower>() * known;
         std::vector<TypeParam> w = this->padded(right, 1e3);
         eliminate(this->padded(panel, 1e3).data(), tall, width, w.data());
-        const Vector found = Eigen::Map<Vector>(w.data(), tall);
+        const Numbers found = Eigen::Map<Numbers>(w.data(), tall);
         EXPECT_LT((found.head(width) - known).norm(), this->kTolerance) << width << " x " << below;
-        const Vector left =
-            Vector::Constant(below, TypeParam(0.25)) - panel.bottomRows(below) * known;
+        const Numbers left =
+            Numbers::Constant(below, TypeParam(0.25)) - panel.bottomRows(below) * known;
         EXPECT_LT((found.tail(below) - left).norm(), this->kTolerance) << width << " x " << below;
     });
 }
 
 TYPED_TEST(DensePanels, SubstituteSolvesTheTransposedTriangle) {
-    using Vector = typename TestFixture::Vector;
+    using Numbers = typename TestFixture::Vector;
     for_all_sizes([&](int width, int below) {
         const int tall = width + below;
         const auto panel = this->some_panel(tall, width);
-        const Vector known = Vector::LinSpaced(tall, -1, 2);
-        Vector right = known;
+        const Numbers known = Numbers::LinSpaced(tall, -1, 2);
+        Numbers right = known;
         right.head(width) =
             panel.topRows(width).template triangularView<Eigen::Lower>().transpose() *
                 known.head(width) +
             panel.bottomRows(below).transpose() * known.tail(below);
         std::vector<TypeParam> w = this->padded(right, 1e3);
         substitute(this->padded(panel, 1e3).data(), tall, width, w.data());
-        const Vector found = Eigen::Map<Vector>(w.data(), tall);
+        const Numbers found = Eigen::Map<Numbers>(w.data(), tall);
         EXPECT_LT((found - known).norm(), this->kTolerance * known.norm())
             << width << " x " << below;
     });
 }
 
 TYPED_TEST(DensePanels, ProductsAreThoseOfTheLowerPart) {
-    using Matrix = typename TestFixture::Matrix;
+    using Panel = typename TestFixture::Matrix;
     constexpr int kInner = 7;
     for_all_sizes([&](int n, int below) {
         const int m = n + below;
-        const Matrix a = this->some_panel(m, kInner);
-        const Matrix wanted = a * a.topRows(n).transpose();
+        const Panel a = this->some_panel(m, kInner);
+        const Panel wanted = a * a.topRows(n).transpose();
         std::vector<TypeParam> c(static_cast<std::size_t>(stored_rows<TypeParam>(m)) *
                                  static_cast<std::size_t>(n));
         const std::vector<TypeParam> numbers = this->padded(a, 1e3);
@@ -102,13 +102,13 @@ TYPED_TEST(DensePanels, ProductsAreThoseOfTheLowerPart) {
 }
 
 TYPED_TEST(DensePanels, FactorisedPanelsGiveTheMatrixAgain) {
-    using Matrix = typename TestFixture::Matrix;
+    using Panel = typename TestFixture::Matrix;
     for (const int width : {1, 3, 31, 32, 33, 70})
         for (const int below : {0, 5}) {
             const int tall = width + below;
-            Matrix lower = this->some_panel(tall, width);
+            Panel lower = this->some_panel(tall, width);
             for (int j = 0; j < width; ++j) lower.col(j).head(j).setZero();
-            const Matrix wanted = lower * lower.topRows(width).transpose();
+            const Panel wanted = lower * lower.topRows(width).transpose();
             std::vector<TypeParam> panel = this->padded(wanted, 0), scratch;
             ASSERT_TRUE(factorise_panel(panel.data(), tall, width, scratch));
             double worst = 0;

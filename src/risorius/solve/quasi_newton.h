@@ -37,7 +37,7 @@ struct QuasiNewtonOptions {
     double tolerance_rms_m = 0;
     /// A step is accepted when E falls by at least this fraction of what the gradient predicts (Armijo's rule).
     double sufficient_decrease = 1e-4;
-    int backtracks = 12;  ///< maximum number of times that one step is shortened
+    int backtracks = 12;       ///< maximum number of times that one step is shortened
     double shortest_m = 1e-9;  ///< a move whose longest row is shorter is not shortened any more
     /// If the first trial of every iteration was accepted, the step of the last one is taken without evaluating E. The energy
     /// in the report is then that before this step.

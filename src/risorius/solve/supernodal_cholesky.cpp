@@ -82,16 +82,16 @@ void SupernodalCholesky::Impl::analyse(const Eigen::SparseMatrix<double>& A, int
         begin.push_back(begin.back() + static_cast<long>(height(p)) * (super[at + 1] - super[at]));
         tallest = std::max(tallest, static_cast<std::size_t>(height(p)));
     }
-    std::vector<int> place(n);
+    std::vector<int> position(n);
     for (std::size_t i = 0; i < n; ++i)
-        place[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+        position[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
     target.clear();
     target.reserve(static_cast<std::size_t>(A.nonZeros()));
     auto found = row.begin();
     for (int j = 0; j < A.outerSize(); ++j)
         for (Eigen::SparseMatrix<double>::InnerIterator it(A, j); it; ++it) {
-            const int a = place[static_cast<std::size_t>(it.row())],
-                      b = place[static_cast<std::size_t>(j)];
+            const int a = position[static_cast<std::size_t>(it.row())],
+                      b = position[static_cast<std::size_t>(j)];
             const int column = std::min(a, b);
             const auto p = static_cast<std::size_t>(owner[static_cast<std::size_t>(column)]);
             const auto first = row.begin() + row_begin[p], last = row.begin() + row_begin[p + 1];

@@ -2,7 +2,6 @@
 #include "risorius/study/run_study.h"
 
 #include <algorithm>
-#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
@@ -72,15 +71,11 @@ StudyResults simulate(const StudyDescription& study, const SampledRigs& rigs, in
     StudyResults results;
     results.moved_mm.resize(runs, poses * columns);
     results.in_equilibrium.resize(runs, poses);
-    std::mutex reporting;
-    int done = 0;
+    TaskProgress progress(monitor, static_cast<int>(runs));
     parallel_for(static_cast<int>(runs), threads, [&](int r) {
         const Run& run = rigs.runs()[static_cast<std::size_t>(r)];
         const std::string name = "face " + std::to_string(r);
-        {
-            const std::lock_guard<std::mutex> lock(reporting);
-            monitor.report(static_cast<double>(done++) / static_cast<double>(runs), name);
-        }
+        progress.begin(name);
         SampledFace face(study, rigs.rig(run), files.mesh, files.place() + ", " + name);
         Eigen::RowVectorXd moved_mm(columns);
         for (Eigen::Index p = 0; p < poses; ++p) {
