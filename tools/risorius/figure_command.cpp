@@ -63,8 +63,7 @@ void run(const FigureArguments& arguments) {
     const figures::FigureOptions& options = arguments.options;
     if (options.figure.empty()) throw Error("figure", "an id, all, a file or --list", "none");
     if (options.out.empty()) throw Error("figure", "--out", "none");
-    if (options.threads < 0 || options.threads > 256)
-        throw Error("--threads", "an integer in [0, 256]", std::to_string(options.threads));
+    check_threads(options.threads);
     figures::FigureReport report;
     {
         ProgressBar bar(arguments.common);
@@ -106,11 +105,7 @@ void add_figure(CLI::App& app) {
     command->add_option(
         "--from", arguments->options.from,
         "Folder of the input files: in it, a folder for each id. Default: samples/figures");
-    command
-        ->add_option(
-            "--threads", arguments->options.threads,
-            "Number of threads; 0: one for each core. The results are the same for any number")
-        ->type_name("INT");
+    add_threads(*command, arguments->options.threads, "The results are");
     add_common(*command, arguments->common);
     command->footer(
         "Writes index.html (published and measured side by side), results.json, tables as CSV, "

@@ -144,9 +144,7 @@ void run(FitArguments& arguments) {
     arguments.options.inline_tables = arguments.tables == "inline";
     arguments.options.calibrate = !arguments.no_calibrate;
     arguments.options.together = !arguments.muscles_apart;
-    if (arguments.options.threads < 0 || arguments.options.threads > 256)
-        throw Error("--threads", "an integer in [0, 256]",
-                    std::to_string(arguments.options.threads));
+    check_threads(arguments.options.threads);
     fitting::FitReport report;
     {
         ProgressBar bar(arguments.common);
@@ -184,9 +182,7 @@ void add_fit(CLI::App& app) {
     command->add_option("--metres-per-unit", options.metres_per_unit,
                         "Size of one unit of the mesh in metres, 0.01 for cm. Default: estimated "
                         "from the landmarks");
-    command->add_option(
-        "--threads", options.threads,
-        "Number of threads; 0: one for each core. The rig is the same for any number");
+    add_threads(*command, options.threads, "The rig is");
     command->add_option("--name", options.name, "Name of the rig. Default: that of the mesh file");
     command->add_option("--part", arguments->parts,
                         "ROLE=GROUP,GROUP: sets the role of groups of the mesh whose names do not "

@@ -66,9 +66,7 @@ void print(const blendshapes::ShapesReport& report, const blendshapes::ShapesOpt
 }
 
 void run(ShapesArguments& arguments) {
-    if (arguments.options.threads < 0 || arguments.options.threads > 256)
-        throw Error("--threads", "an integer in [0, 256]",
-                    std::to_string(arguments.options.threads));
+    check_threads(arguments.options.threads);
     arguments.options.pictures = !arguments.no_pictures;
     blendshapes::ShapesReport report;
     {
@@ -180,9 +178,7 @@ void add_shapes(CLI::App& app) {
         ->capture_default_str();
     command->add_flag("--no-pictures", arguments->no_pictures,
                       "Write the accuracy report without pictures");
-    command->add_option(
-        "--threads", options.threads,
-        "Number of threads; 0: one for each core. The files are the same for any number");
+    add_threads(*command, options.threads, "The files are");
     add_common(*command, arguments->common);
     command->footer(
         "Every shape is the face at rest under the muscles that the rig's tables give it, on the "

@@ -32,9 +32,7 @@ void print(const inverse::SolveReport& report, const inverse::SolveOptions& opti
 }
 
 void run(SolveArguments& arguments) {
-    if (arguments.options.threads < 0 || arguments.options.threads > 256)
-        throw Error("--threads", "an integer in [0, 256]",
-                    std::to_string(arguments.options.threads));
+    check_threads(arguments.options.threads);
     inverse::SolveReport report;
     {
         ProgressBar bar(arguments.common);
@@ -123,7 +121,7 @@ void add_solve(CLI::App& app) {
     add_old_name(*command, "--smooth", "--temporal-weight", options.temporal_weight);
     command->add_option("--fps", options.fps, "Maximum number of frames per second that are solved")
         ->capture_default_str();
-    command->add_option("--threads", options.threads, "Number of threads; 0: one for each core");
+    add_threads(*command, options.threads, "The result is");
     add_common(*command, arguments->common);
     command->footer(
         "Examples:\n"

@@ -74,8 +74,7 @@ void run(const StudyArguments& arguments) {
     const study::StudyOptions& options = arguments.options;
     if (arguments.plan) return print_plan(arguments);
     if (options.out.empty()) throw Error("study", "--out", "none");
-    if (options.threads < 0 || options.threads > 256)
-        throw Error("--threads", "an integer in [0, 256]", std::to_string(options.threads));
+    check_threads(options.threads);
     Json results;
     {
         ProgressBar bar(arguments.common);
@@ -103,11 +102,7 @@ void add_study(CLI::App& app) {
                         "replaced. It is written only when all is done");
     command->add_flag("--plan", arguments->plan,
                       "Check the study, print what varies and how many faces are made, and stop");
-    command
-        ->add_option(
-            "--threads", arguments->options.threads,
-            "Number of threads; 0: one for each core. The results are the same for any number")
-        ->type_name("INT");
+    add_threads(*command, arguments->options.threads, "The results are");
     add_common(*command, arguments->common);
     command->footer(
         "Writes index.html with charts, samples.tsv (a row for each face), displacements.tsv (face "

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "risorius/core/error.h"
 #include "risorius/core/result_cache.h"
 #include "tools/risorius/stop_signals.h"
 
@@ -70,6 +71,18 @@ void add_common(CLI::App& command, Common& common) {
         "--no-cache", [] { use_result_cache(false); },
         "Compute everything anew; neither use nor keep results of computations (see RISORIUS_CACHE "
         "in the manual)");
+}
+
+void add_threads(CLI::App& command, int& threads, const std::string& what) {
+    command
+        .add_option("--threads", threads,
+                    "Number of threads; 0: one for each core. " + what + " the same for any number")
+        ->type_name("INT");
+}
+
+void check_threads(int threads) {
+    if (threads < 0 || threads > 256)
+        throw Error("--threads", "an integer in [0, 256]", std::to_string(threads));
 }
 
 }  // namespace risorius::cli

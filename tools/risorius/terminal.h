@@ -24,6 +24,11 @@ struct Common {
 /// Adds --quiet, --json and --no-cache to a command. The last one acts at once.
 void add_common(CLI::App& command, Common& common);
 
+/// Adds --threads to a command; 0 is one for each core. `what` does not depend on it: "The results are", "The rig is".
+void add_threads(CLI::App& command, int& threads, const std::string& what);
+/// Throws Error unless the number of threads is in [0, 256].
+void check_threads(int threads);
+
 /// Shows progress on standard error for runs longer than two seconds. If standard error is not a terminal, it writes a line every
 /// half minute.
 class ProgressBar {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "risorius/fitting/detail/fit_tolerance.h"
 #include "risorius/scene/unit_reader.h"
 
 namespace risorius::fitting {

@@ -17,9 +17,6 @@
 
 namespace risorius::fitting {
 
-/// Tolerance of the equilibria of a fit, m: a thousandth of the way of most landmarks.
-inline constexpr double kFitTolerance_m = 5e-6;
-
 /// Returns the gain of each unit that has targets and muscles, apart from lids. `rig` holds the units of the table, without gains of a
 /// head. The faces are left in some pose. Throws Interrupted.
 std::map<std::string, rig::UnitGain> fit_units(face::FaceTeam& team, const rig::RigDescription& rig,

@@ -6,7 +6,7 @@
 
 #include "risorius/face/calibration.h"
 #include "risorius/face/diagnostics.h"
-#include "risorius/fitting/fit_units.h"
+#include "risorius/fitting/detail/fit_tolerance.h"
 
 namespace risorius::fitting {
 

@@ -13,7 +13,7 @@
 #include "risorius/face/calibration.h"
 #include "risorius/face/diagnostics.h"
 #include "risorius/face/statics.h"
-#include "risorius/fitting/fit_units.h"
+#include "risorius/fitting/detail/fit_tolerance.h"
 #include "risorius/solve/box_quadratic.h"
 
 namespace risorius::fitting {
@@ -27,13 +27,16 @@ constexpr int kIterations = 200;      // solver iterations per expression
 constexpr double kMinRatio = 0.1;     // smaller relative differences count by their square
 constexpr double kIdle = 0.02;  // less active muscles hardly show in an expression and are ignored
 
+/// The numbers of the lips in z, after those of the muscles.
+enum LipRatio { kUpperTurn, kLowerTurn, kUpperPush, kLowerPush, kPuff };
+
 constexpr auto kPressure = static_cast<std::size_t>(track::Kinematic::kMouthPressure);
 
-/// A face, and the numbers that it has at present.
-class Player {
+/// A face with its present z.
+class ScaledFace {
   public:
-    Player(face::Face& face, const rig::RigDescription& rig, const std::string& place,
-           const std::vector<std::string>& muscles)
+    ScaledFace(face::Face& face, const rig::RigDescription& rig, const std::string& place,
+               const std::vector<std::string>& muscles)
         : ways(face, rig, place), face_(face), muscles_(muscles), lips_(rig.lips) {
         for (const std::string& muscle : muscles)
             strength_.push_back(face.calibration().strength(muscle));
@@ -62,8 +65,8 @@ class Player {
         z_[i] = value;
     }
     /// The drive of the table with the pressure that puffs this head.
-    track::Drive scaled(track::Drive drive) const {
-        drive.kinematic[kPressure] *= std::exp(z_[z_.size() - 1]);
+    track::Drive puffed(track::Drive drive) const {
+        drive.kinematic[kPressure] *= std::exp(z_[static_cast<long>(muscles_.size()) + kPuff]);
         return drive;
     }
     Eigen::MatrixXd slopes(const track::Drive& drive, const std::vector<char>& works);
@@ -80,7 +83,7 @@ class Player {
 };
 
 // d(displacements)/dz in the current equilibrium, in the memory order of Points. `works`: whether a number of z changes anything.
-Eigen::MatrixXd Player::slopes(const track::Drive& drive, const std::vector<char>& works) {
+Eigen::MatrixXd ScaledFace::slopes(const track::Drive& drive, const std::vector<char>& works) {
     const Points nodes = face_.statics().nodes();
     std::vector<Points> force;
     for (long i = 0; i < z_.size(); ++i) {
@@ -90,9 +93,9 @@ Eigen::MatrixXd Player::slopes(const track::Drive& drive, const std::vector<char
         }
         const double at = z_[i];
         set(i, at + kDifference);
-        const Points more = face_.statics().gradient(nodes, drive.excitation, scaled(drive));
+        const Points more = face_.statics().gradient(nodes, drive.excitation, puffed(drive));
         set(i, at - kDifference);
-        const Points less = face_.statics().gradient(nodes, drive.excitation, scaled(drive));
+        const Points less = face_.statics().gradient(nodes, drive.excitation, puffed(drive));
         force.push_back((more - less) / (2 * kDifference));
         set(i, at);
     }
@@ -122,11 +125,11 @@ class Fit {
         for (const rig::MuscleBand& band : rig.atlas.bands)
             if (seen.insert(band.muscle).second) muscles_.push_back(band.muscle);
         team.all([&](face::Face& face) {
-            players_.emplace(&face, std::make_unique<Player>(face, rig, place, muscles_));
+            scaled_.emplace(&face, std::make_unique<ScaledFace>(face, rig, place, muscles_));
         });
         z_ = first().z();
         keep_ = Eigen::VectorXd::Constant(z_.size(), options.keep);
-        keep_[z_.size() - 2] = options.keep_lower_push;
+        keep_[static_cast<long>(muscles_.size()) + kLowerPush] = options.keep_lower_push;
         const std::vector<std::string>& landmarks = first().ways.landmarks();
         for (const auto& [name, table] : standard) {
             Points goal(static_cast<long>(landmarks.size()), 3);
@@ -187,9 +190,9 @@ class Fit {
         solve::BoxQuadratic model;
     };
 
-    Player& first() const { return *players_.at(&team_.first()); }
+    ScaledFace& first() const { return *scaled_.at(&team_.first()); }
     void set(const Eigen::VectorXd& z) {
-        for (const auto& [face, player] : players_) player->set(z);
+        for (const auto& [face, scaled] : scaled_) scaled->set(z);
         z_ = z;
     }
 
@@ -210,7 +213,7 @@ class Fit {
             const Expression& one = expressions_[static_cast<std::size_t>(e)];
             progress.begin(one.name);
             looked[static_cast<std::size_t>(e)] =
-                look_at(one, *players_.at(&face), model != nullptr);
+                look_at(one, *scaled_.at(&face), model != nullptr);
         });
         for (const Looked& one : looked) {
             cost += one.cost;
@@ -222,10 +225,10 @@ class Fit {
         return {cost, sum};
     }
 
-    Looked look_at(const Expression& one, Player& player, bool with_model) const {
+    Looked look_at(const Expression& one, ScaledFace& scaled, bool with_model) const {
         Looked out;
         const Points miss =
-            player.ways.solve_equilibrium(player.scaled(one.drive), kIterations, kFitTolerance_m) -
+            scaled.ways.solve_equilibrium(scaled.puffed(one.drive), kIterations, kFitTolerance_m) -
             one.goal;
         const double length = one.goal.norm();
         out.ratio = miss.norm() / length;
@@ -235,7 +238,7 @@ class Fit {
         const double longer = u.norm() / length - 1;
         out.cost = out.ratio + options_.length * std::abs(longer);
         if (!with_model) return out;
-        const Eigen::MatrixXd J = player.slopes(one.drive, works(one.drive));
+        const Eigen::MatrixXd J = scaled.slopes(one.drive, works(one.drive));
         const double weight = 1 / (length * length * std::max(out.ratio, kMinRatio));
         out.model.A = weight * (J.transpose() * J);
         out.model.b = weight * (J.transpose() * (r - J * z_));
@@ -255,9 +258,10 @@ class Fit {
     }
     bool works(long i, const track::Drive& drive) const {
         const auto muscles = static_cast<long>(muscles_.size());
-        if (i == z_.size() - 1) return drive.kinematic[kPressure] != 0;
+        if (i == muscles + kPuff) return drive.kinematic[kPressure] != 0;
         if (i >= muscles) {  // turn and push act through the lip's own muscles
-            const std::string lip = (i - muscles) % 2 == 0 ? "upper" : "lower";
+            const bool upper = i == muscles + kUpperTurn || i == muscles + kUpperPush;
+            const std::string lip = upper ? "upper" : "lower";
             for (const char* part : {"_marginal", "_peripheral"})
                 if (drive.excitation[channels_.column("orbicularis_oris_" + lip + part,
                                                       Side::kLeft)] > kIdle)
@@ -276,7 +280,7 @@ class Fit {
     const StrengthFitOptions options_;
     const ProgressMonitor& monitor_;
     std::vector<std::string> muscles_;
-    std::map<const face::Face*, std::unique_ptr<Player>> players_;
+    std::map<const face::Face*, std::unique_ptr<ScaledFace>> scaled_;
     std::vector<Expression> expressions_;
     Eigen::VectorXd z_, keep_;
 };
