@@ -259,6 +259,22 @@ void read_population(const std::filesystem::path& file, DesignTables& tables) {
             throw Error(file.string(), "a row of " + handle.parameter, "none");
 }
 
+/// Columns: sex,style, the ancestries.
+void read_hair_styles(const std::filesystem::path& file, DesignTables& tables) {
+    const auto cells = read_csv(file);
+    const std::size_t columns = 2 + tables.ancestries.size();
+    if (cells.front().size() != columns ||
+        !std::equal(tables.ancestries.begin(), tables.ancestries.end(), cells.front().begin() + 2))
+        throw Error(file.string(), "the columns sex, style and the ancestries of population.csv",
+                    cells.front().back());
+    for (std::size_t r = 1; r < cells.size(); ++r) {
+        HairChance chance{number(file, cells[r][0]), cells[r][1], {}};
+        for (std::size_t k = 2; k < columns; ++k)
+            chance.ancestry.push_back(number(file, cells[r][k]));
+        tables.hair_styles.push_back(std::move(chance));
+    }
+}
+
 }  // namespace
 
 std::filesystem::path models_folder() { return data_folder() / "models"; }
@@ -291,6 +307,7 @@ DesignTables read_design_tables(const std::filesystem::path& folder) {
     tables.handles = read_handles(folder / "parameters.csv", kFamilyKinds);
     tables.population_handles = read_handles(folder / "population_handles.csv", kPopulationKinds);
     read_population(folder / "population.csv", tables);
+    read_hair_styles(folder / "hair_styles.csv", tables);
     const auto tones = folder / "tones.csv";
     for (const auto& row : read_csv(tones))
         if (row.size() == 5 && row[0] != "part")

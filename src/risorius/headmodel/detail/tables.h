@@ -68,6 +68,13 @@ struct Measure {
     double mean_mm, sd_mm, men_less_women_mm;
 };
 
+/// How often a drawn person of this sex wears a style of hair.
+struct HairChance {
+    double sex;                    ///< -1 or 1
+    std::string style;             ///< a name of render::hair_style_names()
+    std::vector<double> ancestry;  ///< weight in each, in the order of the ancestries
+};
+
 /// Effect of one parameter on the average head: everything within `reach` of a place is moved along `by`, or scaled about it, on both sides.
 /// kNear acts in front of the globe, but not on the edge of the lid, and kCorner also there; the lean ones move the sides against each other.
 struct Handle {
@@ -110,6 +117,7 @@ struct DesignTables {
     std::vector<Handle> handles;
     std::vector<Handle> population_handles;                    ///< of persons of the population
     std::vector<std::string> ancestries;                       ///< sorted
+    std::vector<HairChance> hair_styles;                       ///< of drawn persons
     std::vector<PopulationParameter> population;               ///< in the order of its table
     std::map<std::string, std::map<std::string, Vec3>> tones;  ///< part, name: sRGB 0..1
 };

@@ -189,8 +189,11 @@ void PlatysmaCords::add(const rig::Head& head, const std::vector<Vec3>& along, i
 void PlatysmaCords::mark(WrinkleLines& lines) {
     // The borders of both sides share a slot. A vertex belongs to the nearer border; other lines of the slot have priority
     Points nearest = Points::Constant(lines.phase.rows(), kWrinkleSlots, kFar);
+    const auto is = [&](const Cord& cord, const Lifted& lifted, WrinkleLines::Claim claim) {
+        return lines.claim.rows() > 0 && lines.claim(lifted.vertex, cord.slot) == claim;
+    };
     const auto mine = [&](const Cord& cord, const Lifted& lifted) {
-        return lines.window(lifted.vertex, cord.slot) == 0 &&
+        return !is(cord, lifted, WrinkleLines::kOfLine) &&
                std::abs(lifted.across) <= nearest(lifted.vertex, cord.slot);
     };
     for (const Cord& cord : cords_)
@@ -202,6 +205,7 @@ void PlatysmaCords::mark(WrinkleLines& lines) {
                 lifted.ridge = 0;
                 continue;
             }
+            if (is(cord, lifted, WrinkleLines::kBesideLine)) lifted.ridge = 0;
             lines.phase(lifted.vertex, cord.slot) = lifted.across / cord.line_m;
             lines.wavelength(lifted.vertex, cord.slot) = cord.line_m;
         }

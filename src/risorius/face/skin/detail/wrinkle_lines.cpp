@@ -20,6 +20,7 @@ constexpr double kMinWindow = 1e-3;
 constexpr double kFadeSpacing_mm = 11.0;  // spacing of the random depth along lines
 constexpr double kFibreSpread_mm = 6.0;   // radius of the mean over fibres near a point
 constexpr double kPathSpacing_mm = 4.0;
+constexpr double kPartingFade_mm = 6.0;  // lines fade over this where two patterns meet
 
 // A segment of a fibre: position and direction.
 struct FibrePiece {
@@ -238,12 +239,15 @@ double place_on(const Vec3& p, const std::vector<Vec3>& line) {
     return place + nearest.fraction * (line[nearest.piece + 1] - line[nearest.piece]).norm();
 }
 
-// Returns the signed distance from the crease, m, positive towards the outside of the face.
+// Returns the signed distance from the crease, m, positive towards the outside of the face. The crease goes on straight at its ends:
+// a distance from the end itself would bend the lines into rings around it.
 double across_crease(const Vec3& p, const std::vector<Vec3>& line) {
     double best = 1e300, side = 1;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         const Vec3 along = line[i + 1] - line[i];
-        const double t = std::clamp((p - line[i]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+        const double at = (p - line[i]).dot(along) / along.squaredNorm();
+        const double t = std::clamp(at, i == 0 ? std::min(at, 0.0) : 0.0,
+                                    i + 2 == line.size() ? std::max(at, 1.0) : 1.0);
         const Vec3 off = p - line[i] - t * along;
         if (off.squaredNorm() >= best) continue;
         best = off.squaredNorm();
@@ -345,6 +349,57 @@ void lay(const rig::Head& head, const Triangles& skin, const Pattern& pattern,
     lines.creases.push_back(crease);
 }
 
+// Where two patterns of a slot meet, the phase within a triangle would run from one to the other: there are no lines there, and
+// those beside it fade towards it.
+void part_patterns(const rig::Head& head, const Triangles& skin, const Owners& owner,
+                   WrinkleLines& lines) {
+    const double fade = head.mm(kPartingFade_mm);
+    for (int slot = 0; slot < kWrinkleSlots; ++slot) {
+        std::vector<char> cut(owner.size(), 0);
+        std::vector<Vec3> meeting;
+        for (long f = 0; f < skin.rows(); ++f) {
+            const auto own = [&](int k) { return owner[skin(f, k)][slot]; };
+            if (own(0) == own(1) && own(1) == own(2)) continue;
+            bool seen = false;
+            for (int k = 0; k < 3; ++k) seen = seen || lines.window(skin(f, k), slot) > 0;
+            if (!seen) continue;
+            for (int k = 0; k < 3; ++k) {
+                if (cut[skin(f, k)]) continue;
+                cut[skin(f, k)] = 1;
+                meeting.push_back(head.vertices.row(skin(f, k)).transpose());
+            }
+        }
+        if (meeting.empty()) continue;
+        for (long v = 0; v < lines.window.rows(); ++v) {
+            if (lines.window(v, slot) == 0) continue;
+            const Vec3 at = head.vertices.row(v).transpose();
+            double nearest = fade;
+            for (const Vec3& place : meeting) nearest = std::min(nearest, (place - at).norm());
+            lines.window(v, slot) *= geom::smoothstep(0, fade, nearest);
+        }
+    }
+}
+
+// Claims the phases of all triangles that show a line, and marks the vertices around them.
+void claim_phases(const Triangles& skin, WrinkleLines& lines) {
+    lines.claim.setConstant(lines.window.rows(), kWrinkleSlots, WrinkleLines::kFree);
+    const auto spread = [&](WrinkleLines::Claim to, auto&& reaches) {
+        for (long f = 0; f < skin.rows(); ++f)
+            for (int slot = 0; slot < kWrinkleSlots; ++slot) {
+                if (!reaches(skin(f, 0), slot) && !reaches(skin(f, 1), slot) &&
+                    !reaches(skin(f, 2), slot))
+                    continue;
+                for (int k = 0; k < 3; ++k) {
+                    signed char& claim = lines.claim(skin(f, k), slot);
+                    claim = std::max<signed char>(claim, to);
+                }
+            }
+    };
+    spread(WrinkleLines::kOfLine, [&](int v, int slot) { return lines.window(v, slot) > 0; });
+    spread(WrinkleLines::kBesideLine,
+           [&](int v, int slot) { return lines.claim(v, slot) == WrinkleLines::kOfLine; });
+}
+
 }  // namespace
 
 WrinkleLines lay_wrinkle_lines(const rig::Head& head, const rig::RigDescription& rig,
@@ -370,14 +425,8 @@ WrinkleLines lay_wrinkle_lines(const rig::Head& head, const rig::RigDescription&
         }
         lay(head, skin, pattern, window, index++, rig.appearance.age, lines, owner);
     }
-    // Where two patterns of a slot meet, the phase within a triangle would run from one to the other
-    for (long f = 0; f < skin.rows(); ++f)
-        for (int slot = 0; slot < kWrinkleSlots; ++slot) {
-            const int a = owner[skin(f, 0)][slot], b = owner[skin(f, 1)][slot],
-                      c = owner[skin(f, 2)][slot];
-            if (a == b && b == c) continue;
-            for (int k = 0; k < 3; ++k) lines.window(skin(f, k), slot) = 0;
-        }
+    part_patterns(head, skin, owner, lines);
+    claim_phases(skin, lines);
     return lines;
 }
 

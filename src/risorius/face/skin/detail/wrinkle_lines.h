@@ -10,11 +10,13 @@
 /// Lines are perpendicular to the fibres. They are evenly spaced where fibres are parallel, and form a fan where fibres turn about eye or
 /// mouth. For a crease that is a single line (nasolabial), f is the signed distance from the curve of the crease / l.
 ///
-/// Everything is fixed in the rest shape, so lines move with the skin and do not flicker. Patterns that overlap have different slots. The patterns are a table of the rig (rig/wrinkle_table.h).
+/// Everything is fixed in the rest shape, so lines move with the skin and do not flicker. Patterns that overlap have different slots; where two of a slot meet, both
+/// fade. The patterns are a table of the rig (rig/wrinkle_table.h).
 ///
 /// Lines of expression lie across the pull of the muscles: Kraissl 1951, Plast. Reconstr. Surg. 8(1), 1-28.
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "risorius/core/types.h"
@@ -41,6 +43,9 @@ struct WrinkleLines {
     std::vector<Crease> creases = {};
     /// V x 3 or no rows, 0..1: permanence, how deep the lines of old skin remain at rest.
     Points at_rest = {};
+    /// V x 3 or no rows: whose a phase is. A phase that others change beside a line would bend it.
+    enum Claim : signed char { kFree, kBesideLine, kOfLine };
+    Eigen::Array<signed char, Eigen::Dynamic, kWrinkleSlots> claim = {};
 };
 
 /// Returns the lines of a head. `skin`: triangles of the part of its skin that moves, indices of mesh vertices.
