@@ -33,7 +33,8 @@ TEST(HairNames, AreTheSameInRigAndRenderer) {
         return message_of([&] { rig::read_rig(file); });
     };
     for (const auto& [key, names] : {std::pair{"hair_style", render::hair_style_names()},
-                                     std::pair{"hairline_form", render::hairline_form_names()}}) {
+                                     std::pair{"hairline_form", render::hairline_form_names()},
+                                     std::pair{"beard_form", render::beard_form_names()}}) {
         for (const std::string& name : names) EXPECT_EQ(message(key, name), "no error") << name;
         // The rig lists what it knows: as many as the renderer
         const std::string refused = message(key, "mohawk");

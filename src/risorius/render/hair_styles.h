@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The names of the styles of hair, and of the forms of the hairline. The rig has the same names; a test compares them.
+/// The names of the styles of hair, and of the forms of hairline and beard. The rig has the same names; a test compares them.
 #pragma once
 
 #include <string>
@@ -13,5 +13,8 @@ const std::vector<std::string>& hair_style_names();
 
 /// "even", "round", "widows_peak", "m", "high", "receding".
 const std::vector<std::string>& hairline_form_names();
+
+/// "stubble", "full", "moustache", "goatee", "jawline".
+const std::vector<std::string>& beard_form_names();
 
 }  // namespace risorius::render

@@ -103,6 +103,11 @@ void visit_fields(AppearanceDescription& appearance, Visit visit) {
     visit("hairline_form", appearance.hairline_form, kHairlines);
     visit("grey_hair", appearance.grey_hair, Range{0, 1});
     visit("age_lines", appearance.age_lines, Range{0, 1});
+    static const std::vector<std::string_view> kBeards{"stubble", "full", "moustache", "goatee",
+                                                       "jawline"};
+    visit("beard_form", appearance.beard_form, kBeards);
+    visit("brow_density", appearance.brow_density, Range{0, 3});
+    visit("brow_width", appearance.brow_width, Range{0.3, 2});
 }
 
 struct FieldReader {
@@ -439,7 +444,8 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     json["appearance"] = fields_of(rig.appearance);
     // Rigs that ask for no hair and no lines stay as they were before there were any.
     const Json usual = fields_of(AppearanceDescription{});
-    for (const char* key : {"hair_style", "hairline_form", "grey_hair", "age_lines"})
+    for (const char* key : {"hair_style", "hairline_form", "grey_hair", "age_lines", "beard_form",
+                            "brow_density", "brow_width"})
         if (json["appearance"][key] == usual[key]) json["appearance"].erase(key);
     if (const auto source = options.standard_folder / kCalibrationFile;
         std::filesystem::exists(source))

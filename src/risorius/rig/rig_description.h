@@ -124,6 +124,8 @@ struct AppearanceDescription {
     std::string hair_style = "shaven",
                 hairline_form = "even";  ///< names as in render/hair_styles.h
     double grey_hair = 0.0, age_lines = 0.0;
+    std::string beard_form = "stubble";
+    double brow_density = 1.0, brow_width = 1.0;
 };
 
 /// What `fit` found for an action unit on this head, so that it moves as far and as evenly as facs.json asks.

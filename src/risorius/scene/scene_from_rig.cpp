@@ -191,7 +191,10 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
                         .hair_style = rig.appearance.hair_style,
                         .hairline_form = rig.appearance.hairline_form,
                         .age_lines = rig.appearance.age_lines,
-                        .grey_hair = rig.appearance.grey_hair};
+                        .grey_hair = rig.appearance.grey_hair,
+                        .beard_form = rig.appearance.beard_form,
+                        .brow_density = rig.appearance.brow_density,
+                        .brow_width = rig.appearance.brow_width};
     return scene;
 }
 

@@ -22,6 +22,11 @@ constexpr int kFewest = 2, kMost = 200;
 constexpr double Identity::*kBlended[] = {
     &Identity::sex,      &Identity::age,     &Identity::freckles, &Identity::scalp_hair,
     &Identity::hairline, &Identity::temples, &Identity::beard};
+const std::pair<double IdentityHair::*, Range> kBlendedHair[] = {
+    {&IdentityHair::grey, {0, 1}},
+    {&IdentityHair::age_lines, {0, 1}},
+    {&IdentityHair::brow_density, {0, 3}},
+    {&IdentityHair::brow_width, {0.3, 2}}};
 constexpr std::string Identity::*kTones[] = {&Identity::skin, &Identity::iris, &Identity::hair};
 
 bool makes_uneven(const std::string& parameter) {
@@ -131,13 +136,13 @@ Identity blended(const std::vector<Identity>& persons, const std::vector<double>
     for (const auto member : kTones) choose([&](auto& person) -> auto& { return person.*member; });
     choose([](auto& person) -> auto& { return person.hairdo.style; });
     choose([](auto& person) -> auto& { return person.hairdo.hairline_form; });
-    out.hairdo.grey = out.hairdo.age_lines = 0;
-    for (std::size_t k = 0; k < persons.size(); ++k) {
-        out.hairdo.grey += weights[k] * persons[k].hairdo.grey;
-        out.hairdo.age_lines += weights[k] * persons[k].hairdo.age_lines;
+    choose([](auto& person) -> auto& { return person.hairdo.beard_form; });
+    for (const auto& [member, range] : kBlendedHair) {
+        out.hairdo.*member = 0;
+        for (std::size_t k = 0; k < persons.size(); ++k)
+            out.hairdo.*member += weights[k] * (persons[k].hairdo.*member);
+        out.hairdo.*member = std::clamp(out.hairdo.*member, range.min, range.max);
     }
-    out.hairdo.grey = std::clamp(out.hairdo.grey, 0.0, 1.0);
-    out.hairdo.age_lines = std::clamp(out.hairdo.age_lines, 0.0, 1.0);
     keep_in_range(out);
     return out;
 }

@@ -10,10 +10,16 @@
 #include "risorius/render/hair_styles.h"
 
 namespace risorius::headmodel {
+namespace {
+
+constexpr Range kBrowDensity{0, 3}, kBrowWidth{0.3, 2};
+
+}  // namespace
 
 const std::vector<std::string_view>& identity_hair_keys() {
-    static const std::vector<std::string_view> keys{"hair_style", "hairline_form", "grey_hair",
-                                                    "age_lines", "seed"};
+    static const std::vector<std::string_view> keys{"hair_style",   "hairline_form", "grey_hair",
+                                                    "age_lines",    "seed",          "beard_form",
+                                                    "brow_density", "brow_width"};
     return keys;
 }
 
@@ -24,6 +30,9 @@ IdentityHair read_identity_hair(const JsonCursor& json) {
     if (json.has("grey_hair")) hair.grey = json.at("grey_hair").number();
     if (json.has("age_lines")) hair.age_lines = json.at("age_lines").number();
     if (json.has("seed")) hair.seed = json.at("seed").integer(0, std::numeric_limits<int>::max());
+    if (json.has("beard_form")) hair.beard_form = json.at("beard_form").string();
+    if (json.has("brow_density")) hair.brow_density = json.at("brow_density").number(kBrowDensity);
+    if (json.has("brow_width")) hair.brow_width = json.at("brow_width").number(kBrowWidth);
     return hair;
 }
 
@@ -31,6 +40,7 @@ void check_identity_hair(const IdentityHair& hair,
                          const std::function<std::string(const std::string& field)>& place) {
     index_of_name(place("hair_style"), hair.style, render::hair_style_names());
     index_of_name(place("hairline_form"), hair.hairline_form, render::hairline_form_names());
+    index_of_name(place("beard_form"), hair.beard_form, render::beard_form_names());
     for (const auto& [key, value] :
          {std::pair{"grey_hair", hair.grey}, std::pair{"age_lines", hair.age_lines}})
         if (!(value >= 0 && value <= 1)) throw Error(place(key), "[0, 1]", format_number(value));
@@ -43,6 +53,9 @@ void write_identity_hair(const IdentityHair& hair, Json& json) {
     if (hair.grey != usual.grey) json["grey_hair"] = hair.grey;
     if (hair.age_lines != usual.age_lines) json["age_lines"] = hair.age_lines;
     if (hair.seed != usual.seed) json["seed"] = hair.seed;
+    if (hair.beard_form != usual.beard_form) json["beard_form"] = hair.beard_form;
+    if (hair.brow_density != usual.brow_density) json["brow_density"] = hair.brow_density;
+    if (hair.brow_width != usual.brow_width) json["brow_width"] = hair.brow_width;
 }
 
 }  // namespace risorius::headmodel

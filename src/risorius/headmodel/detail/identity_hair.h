@@ -17,6 +17,9 @@ struct IdentityHair {
     double grey = 0;                     ///< 0..1, share of white hairs beyond what comes with age
     double age_lines = 0;                ///< 0..1, strength of the lines that come with age
     int seed = 1;                        ///< of locks, hairs, pores and spots
+    std::string beard_form = "stubble";  ///< a name of render::beard_form_names()
+    double brow_density = 1;             ///< 0..3, hairs of the brows against the usual number
+    double brow_width = 1;               ///< 0.3..2, height of the brows against the usual one
     bool operator==(const IdentityHair&) const = default;
 };
 

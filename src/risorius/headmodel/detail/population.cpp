@@ -81,6 +81,20 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
     const double greying = person.age + 10 * std::clamp(draw.normal(), -2.0, 2.0);
     person.hairdo.grey = to_hundredths(std::clamp((greying - 40) / 50, 0.0, 1.0));
     person.hairdo.seed = static_cast<int>(seed % 100000) + 1;
+    // Brows: thinner and often plucked in women, bushier and in the end thinner with age.
+    const double brow = std::clamp(draw.normal(), -2.0, 2.0),
+                 height = std::clamp(draw.normal(), -2.0, 2.0);
+    person.hairdo.brow_density = to_hundredths((man ? 1.25 : 0.95) * std::exp(0.35 * brow));
+    person.hairdo.brow_width = to_hundredths((man ? 1.15 : 0.75) * std::exp(0.25 * height));
+    // Of men six in ten are shaved or have stubble.
+    const double kind = draw.even(), growth = draw.even();
+    if (man && kind >= 0.6) {
+        person.beard = to_hundredths(0.7 + 0.3 * growth);
+        person.hairdo.beard_form = kind < 0.76   ? "full"
+                                   : kind < 0.85 ? "moustache"
+                                   : kind < 0.94 ? "goatee"
+                                                 : "jawline";
+    }
 }
 
 }  // namespace

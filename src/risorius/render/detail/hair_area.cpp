@@ -36,6 +36,7 @@ HairArea::HairArea(const Scene& scene) {
     }
     centre_ = paint_centre(scene, low, high);
     plan_ = plan_skin(scene, centre_);
+    brow_width_ = scene.appearance.brow_width;
     scalp_ = std::max(scalp_paint(scene.appearance), scene.appearance.hair_length_mm) > 0 &&
              plan_.hairline[0] < 1;
 }
@@ -46,7 +47,7 @@ std::optional<Part> HairArea::at(const Vec3& rest) const {
         if (line.size() < 2 || (rest - line[line.size() / 2]).squaredNorm() > 0.04 * 0.04) continue;
         const auto [distance, along] = from_line(line, rest);
         // The width over which next_brow_hair() spreads roots, plus the reach of the hairs.
-        if (distance < 0.0045 * (1 - 0.58 * along))
+        if (distance < 0.0045 * brow_width_ * (1 - 0.58 * along))
             return side == 0 ? Part::kBrowLeft : Part::kBrowRight;
     }
     if (!scalp_ || plan_.ears[0].contains(rest) || plan_.ears[1].contains(rest))

@@ -24,6 +24,7 @@ class HairArea {
     Vec3 centre_ = Vec3::Zero();
     SkinPlan plan_;
     bool scalp_ = false;
+    double brow_width_ = 1;
 };
 
 }  // namespace risorius::render

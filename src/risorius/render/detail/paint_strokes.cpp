@@ -48,10 +48,11 @@ class StrokePad {
 void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
           RandomSequence& random, StrokePad& pad) {
     if (line.size() < 3) return;
-    constexpr int kHairs = 420;
+    const int hairs = brow_hairs(scene.appearance, 420);
+    const double width = scene.appearance.brow_width;
     const Vec3 hair = linear_from_srgb(hair_tone_at(scene.appearance));
-    for (int i = 0; i < kHairs; ++i) {
-        const BrowHair next = next_brow_hair(line, centre, random);
+    for (int i = 0; i < hairs; ++i) {
+        const BrowHair next = next_brow_hair(line, width, centre, random);
         const double shade = 0.7 + 0.7 * random.next(), density = 0.22 + 0.16 * random.next();
         const Vec2 tip = next.root + kMapPerMetre * next.length_m * next.step.normalized();
         pad.add(next.root, tip, kMapPerMetre * 0.00022, hair * shade, density * next.density);
@@ -113,6 +114,8 @@ void beard(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
            const std::vector<unsigned>& skin, RandomSequence& random, StrokePad& pad) {
     if (scene.appearance.beard <= 0 || plan.beard.empty()) return;
     constexpr double kPerSquareMetre = 1.1e6;  // on the chin of a man
+    constexpr double kTrimmed_m = 0.0026;      // what the hairs of a trimmed beard are longer
+    const double longer_m = plan.trimmed ? kTrimmed_m : 0.0;
     const Vec3 hair = linear_from_srgb(hair_tone_at(scene.appearance));
     const auto at = [&](std::size_t i) -> Vec3 {
         return scene.rest.row(static_cast<Eigen::Index>(skin[i])).transpose();
@@ -134,7 +137,9 @@ void beard(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
             const Vec3 down = (Vec3(0.9 * (turn - 0.5) + 2.5 * root.x(), -1, 0.0)).normalized();
             const Vec2 from = paint_place(root, centre);
             const Vec2 to = paint_place(
-                root + (0.0004 + 0.0022 * scene.appearance.beard * (0.5 + 0.5 * length)) * down,
+                root +
+                    (0.0004 + (0.0022 * scene.appearance.beard + longer_m) * (0.5 + 0.5 * length)) *
+                        down,
                 centre);
             pad.add(from, to, kMapPerMetre * 0.00011, hair * (0.7 + 0.6 * shade),
                     (0.25 + 0.55 * scene.appearance.beard) * density);
@@ -202,7 +207,12 @@ bool inside_lips(const SkinPlan& plan, const Vec3& p) {
     return inside && p.z() > plan.lip_back_m;
 }
 
-BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& centre, RandomSequence& random) {
+int brow_hairs(const Appearance& appearance, int usual) {
+    return static_cast<int>(std::lround(usual * appearance.brow_density));
+}
+
+BrowHair next_brow_hair(const std::vector<Vec3>& line, double width, const Vec3& centre,
+                        RandomSequence& random) {
     const auto map = [&](std::size_t k) { return paint_place(line[k], centre); };
     const std::size_t end = line.size() - 1;
     const double mirrored = map(end).x() < map(0).x() ? -1 : 1;
@@ -219,7 +229,7 @@ BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& centre, Rando
     const double offset = random.next() + random.next() - 1.0;
     BrowHair hair;
     hair.root = map(k) + (at - static_cast<double>(k)) * (map(k + 1) - map(k)) +
-                kMapPerMetre * (offset * half_band - 0.0006) * up;
+                kMapPerMetre * (offset * width * half_band - 0.0006) * up;
     const double lean = (46.0 - 32.0 * std::min(1.0, t / 0.40)) -
                         42.0 * offset * std::min(1.0, t / 0.3) +
                         (24.0 + 18.0 * t) * (random.next() - 0.5);

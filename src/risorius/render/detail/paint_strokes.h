@@ -12,13 +12,16 @@
 
 namespace risorius::render {
 
+/// Number of hairs of a brow of this appearance, where the usual number is given.
+int brow_hairs(const Appearance& appearance, int usual);
+
 /// A brow hair on the map. Hairs near the nose stand upright; farther out they lie more and more along the brow. Hairs of the
 /// upper rows lean down, and those of the lower rows lean up.
 struct BrowHair {
     Vec2 root, step;  ///< on the map, 0..1; step: 0.4 of the way from root to tip
     double length_m = 0, density = 1;
 };
-BrowHair next_brow_hair(const std::vector<Vec3>& line, const Vec3& paint_centre,
+BrowHair next_brow_hair(const std::vector<Vec3>& line, double width, const Vec3& paint_centre,
                         RandomSequence& random);
 
 /// The part of the map that the ears cover, on a grid of 256 x 256 cells.

@@ -6,8 +6,10 @@
 #include <numbers>
 #include <string>
 
+#include "risorius/core/known_names.h"
 #include "risorius/render/detail/lock_style.h"
 #include "risorius/render/detail/skin_paint.h"
+#include "risorius/render/hair_styles.h"
 
 namespace risorius::render {
 namespace {
@@ -107,8 +109,26 @@ void plan_lips(const Marks& marks, SkinPlan& plan) {
     plan.lip_back_m = std::min(upper.front().z(), upper.back().z()) - 0.035;
 }
 
-/// Along the jaw, on the chin, between nose and lip and under the jaw. Sideburns join it to the hair of the head.
-void plan_beard(const Marks& marks, SkinPlan& plan) {
+struct BeardForm {
+    const char* name;
+    std::array<bool, 9> spots;  ///< those of plan_beard()
+    double spread;              ///< of the spots, against stubble
+    bool trimmed;
+};
+constexpr std::array<BeardForm, 5> kBeardForms{{
+    {"stubble", {true, true, true, true, true, true, true, true, false}, 1.0, false},
+    {"full", {true, true, true, true, true, true, true, true, true}, 1.3, true},
+    {"moustache", {false, false, true, true, false, false, false, false, false}, 1.15, true},
+    {"goatee", {true, true, true, true, false, false, false, false, true}, 1.05, true},
+    {"jawline", {true, true, false, false, true, true, true, true, false}, 1.15, true},
+}};
+
+/// Along the jaw, on the chin, between nose and lip and under the jaw. Sideburns join it to the hair of the head, and the last
+/// spots join moustache and chin.
+void plan_beard(const Marks& marks, const Appearance& appearance, SkinPlan& plan) {
+    const BeardForm& form =
+        kBeardForms[index_of_name("beard_form", appearance.beard_form, beard_form_names())];
+    plan.trimmed = form.trimmed;
     struct Spot {
         const char *from, *to;
         bool paired;
@@ -123,15 +143,17 @@ void plan_beard(const Marks& marks, SkinPlan& plan) {
                                   {"ch", "go", true, 0.22, 0.012, {0, -0.016, 0}},
                                   {"ch", "go", true, 0.60, 0.016, {0, -0.006, 0}},
                                   {"go", "t", true, 0.10, 0.015},
-                                  {"go", "t", true, 0.55, 0.010, {0, 0, 0.010}}};
-    for (const Spot& spot : kSpots)
+                                  {"go", "t", true, 0.55, 0.010, {0, 0, 0.010}},
+                                  {"ch", "go", true, 0.02, 0.0085, {0, -0.011, 0}}};
+    for (std::size_t k = 0; k < std::size(kSpots); ++k)
         for (const int side : {0, 1}) {
-            if (!spot.paired && side == 1) continue;
+            const Spot& spot = kSpots[k];
+            if (!form.spots[k] || (!spot.paired && side == 1)) continue;
             const std::string s = spot.paired ? (side == 0 ? "_l" : "_r") : "";
             const Vec3 *from = marks.find(spot.from + s), *to = marks.find(spot.to + s);
             if (!from || !to) continue;
             plan.beard.push_back({*from + spot.fraction * (*to - *from) + spot.offset,
-                                  spot.spread_m, Vec3::Zero(), 0.0});
+                                  form.spread * spot.spread_m, Vec3::Zero(), 0.0});
         }
 }
 
@@ -218,6 +240,15 @@ bool EarRegion::contains(const Vec3& p) const {
            std::abs(p.x()) > out_m + lean * (high.z() - p.z()) + lean * std::max(0.0, p.y());
 }
 
+const std::vector<std::string>& beard_form_names() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> out;
+        for (const BeardForm& form : kBeardForms) out.emplace_back(form.name);
+        return out;
+    }();
+    return names;
+}
+
 double beard_density(const SkinPlan& plan, const Vec3& rest) {
     double sum = 0;
     for (const SkinZone& zone : plan.beard)
@@ -252,7 +283,7 @@ SkinPlan plan_skin(const Scene& scene, const Vec3& paint_centre) {
     SkinPlan plan;
     plan.zones = plan_zones(marks);
     plan_lips(marks, plan);
-    plan_beard(marks, plan);
+    plan_beard(marks, scene.appearance, plan);
     plan_hairline(marks, paint_centre, scene.appearance, plan);
     for (const std::size_t side : {0U, 1U}) {
         const std::string s = side == 0 ? "_l" : "_r";

@@ -42,6 +42,7 @@ struct SkinPlan {
     double ring_m = 1e3;
     static constexpr double kRingSlope = 0.20;
     std::vector<SkinZone> beard;  ///< soft spots (centre and spread) with a beard
+    bool trimmed = false;         ///< its hairs are millimetres long, and hide the skin
     std::array<EarRegion, 2> ears;
     std::array<std::vector<Vec3>, 2> brows;  ///< centre lines from medial to lateral, rest, m
 };

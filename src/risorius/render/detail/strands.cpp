@@ -233,7 +233,7 @@ Mat3 lid_frame(int eye, const Vec3& root, const Vec3& eye_centre, const Vec3& in
 
 std::vector<Strand> plan_brows(const Scene& scene, const SkinPlan& plan, const Vec3& paint_centre,
                                const std::vector<unsigned>& skin) {
-    constexpr int kHairs = 430;
+    const int hairs = brow_hairs(scene.appearance, 430);
     std::vector<Strand> strands;
     for (std::size_t side = 0; side < 2; ++side) {
         const std::vector<Vec3>& line = plan.brows[side];
@@ -241,8 +241,9 @@ std::vector<Strand> plan_brows(const Scene& scene, const SkinPlan& plan, const V
         RandomSequence random(scene.appearance.seed * 31U +
                               5U);  // the same seed for both: brows are mirror images
         const SkinMap map(scene, paint_centre, skin, line);
-        for (int i = 0; i < kHairs; ++i) {
-            const BrowHair hair = next_brow_hair(line, paint_centre, random);
+        for (int i = 0; i < hairs; ++i) {
+            const BrowHair hair =
+                next_brow_hair(line, scene.appearance.brow_width, paint_centre, random);
             const double lift = 0.10 + 0.14 * random.next(), shade = 0.55 + 0.75 * random.next();
             const auto root = map.at(hair.root), ahead = map.at(hair.root + hair.step);
             if (!root || !ahead) continue;

@@ -343,9 +343,9 @@ void add_parameters(const Observations& observations, const Table& table,
                       (number + 1) * static_cast<std::uint64_t>(options.bootstraps) +
                           static_cast<std::uint64_t>(round));
         std::vector<int> times(hits.size());
-        for (std::size_t p = 0; p + 1 < first.size(); ++p)
-            for (std::size_t i = first[p]; i < first[p + 1]; ++i)
-                ++times[first[p] + chance.below(first[p + 1] - first[p])];
+        for (std::size_t who = 0; who + 1 < first.size(); ++who)
+            for (std::size_t i = first[who]; i < first[who + 1]; ++i)
+                ++times[first[who] + chance.below(first[who + 1] - first[who])];
         for (std::size_t k = 0; k < parameters; ++k)
             again[k].push_back(model_value(unit.parameters[k], values[k], hits, &times));
     }
