@@ -84,6 +84,27 @@ TEST(PlatysmaCords, StandOutFromTheNeckOfTheSideThatPullsAndFromNothingElse) {
     EXPECT_LT(at_half, 0.8 * max);
 }
 
+/// A phase that a cord wrote beside the dimple of the cheek once drew a dark line from the corner of the mouth outwards.
+TEST(PlatysmaCords, LeaveThePhasesOfOtherLinesAlone) {
+    const rig::Head& head = rig::adult_placed();
+    const WrinkleLines before = lay_wrinkle_lines(head, rig::adult().rig, head.skin);
+    WrinkleLines lines = before;
+    PlatysmaCords(head, rig::adult().rig).mark(lines);
+    long checked = 0;
+    for (long f = 0; f < head.skin.rows(); ++f)
+        for (int slot = 0; slot < kWrinkleSlots; ++slot) {
+            double shown = 0;
+            for (int k = 0; k < 3; ++k)
+                shown = std::max(shown, lines.window(head.skin(f, k), slot));
+            if (shown == 0) continue;
+            ++checked;
+            for (int k = 0; k < 3; ++k)
+                EXPECT_EQ(lines.phase(head.skin(f, k), slot), before.phase(head.skin(f, k), slot));
+        }
+    EXPECT_GT(checked, 1000);
+    EXPECT_GT((lines.phase - before.phase).cwiseAbs().maxCoeff(), 0.0) << "cords have phases";
+}
+
 TEST(PlatysmaCords, ShowAsLinesThatStandOutInTheFace) {
     Face face = adult_face();
     StepStats figures;

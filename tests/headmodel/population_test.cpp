@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "message_of.h"
 #include "risorius/headmodel/detail/deform_head.h"
@@ -81,6 +83,59 @@ TEST(Person, KeepsItsShapeAtAnotherAgeSexAndAncestry) {
     EXPECT_EQ(young.shape, old.shape);
     EXPECT_EQ(old.age, 70);
     EXPECT_EQ(old.ancestry, (std::map<std::string, double>{{"african", 1.0}}));
+}
+
+/// Hair by sex and ancestry, as often as the table says; only men are bald, and only men have beards.
+TEST(Person, WearsHairOfItsSexAndAncestry) {
+    constexpr int kPersons = 400;
+    for (const auto& [sex, ancestry] :
+         {std::pair{-1.0, std::string("south_asian")}, {1.0, std::string("european")}}) {
+        std::map<std::string, double> styles;
+        double brow = 0;
+        for (unsigned seed = 1; seed <= kPersons; ++seed) {
+            const Identity person =
+                random_person(seed, {.sex = sex, .age = 30, .ancestry = ancestry}, design());
+            ++styles[person.hairdo.style];
+            brow += person.hairdo.brow_width / kPersons;
+            if (sex < 0) {
+                EXPECT_EQ(person.beard, 0);
+                EXPECT_EQ(person.hairdo.beard_form, "stubble");
+            }
+        }
+        EXPECT_EQ(styles["bald_fringe"], 0) << "at 30";
+        EXPECT_NEAR(brow, sex < 0 ? 0.77 : 1.19, 0.06);
+        const auto column =
+            std::find(design().ancestries.begin(), design().ancestries.end(), ancestry) -
+            design().ancestries.begin();
+        double sum = 0;
+        for (const HairChance& chance : design().hair_styles)
+            if (chance.sex == sex) sum += chance.ancestry[static_cast<std::size_t>(column)];
+        for (const HairChance& chance : design().hair_styles)
+            if (chance.sex == sex) {
+                const double share = chance.ancestry[static_cast<std::size_t>(column)] / sum;
+                EXPECT_NEAR(styles[chance.style] / kPersons, share,
+                            3 * std::sqrt(share * (1 - share) / kPersons) + 1e-12)
+                    << chance.style;
+            }
+    }
+}
+
+/// Mean share of grey hair: 26 % at 51 to 55, 32 % at 56 to 60, 40 % at 61 to 65 years (Panhard et al. 2012). Of Chinese men of 60 to
+/// 69 years 36 %, and of those over 70 41 % have pattern hair loss (Wang et al. 2010).
+TEST(Person, GreysAndBaldsAsAdultsDo) {
+    constexpr int kPersons = 400;
+    for (const auto& [age, grey, bald] :
+         {std::tuple{53.0, 0.26, 0.32}, {58.0, 0.32, 0.32}, {63.0, 0.40, 0.36}}) {
+        double mean = 0, lost = 0;
+        for (unsigned seed = 1; seed <= kPersons; ++seed) {
+            const Identity person = random_person(seed, {.sex = 1, .age = age}, design());
+            mean += person.hairdo.grey / kPersons;
+            lost += (person.hairdo.style == "bald_fringe") / static_cast<double>(kPersons);
+        }
+        EXPECT_NEAR(mean, grey, 0.08) << age;
+        EXPECT_NEAR(lost, bald, 0.14) << age;
+    }
+    EXPECT_EQ(random_person(9, {.age = 25}, design()).hairdo.age_lines < 0.4, true);
 }
 
 TEST(Person, HasSixtyParametersAndMore) {

@@ -11,7 +11,7 @@ namespace risorius::headmodel {
 namespace {
 
 constexpr double kCut = 2.5;  ///< standard deviations; beyond them nobody is drawn
-constexpr double kBaldTemples_mm = 12;
+constexpr double kBaldTemples_mm = 11;
 constexpr unsigned kHairSequence = 0x5eed0000;
 
 /// Tones that are usual, from the names of the tones table, in thirds.
