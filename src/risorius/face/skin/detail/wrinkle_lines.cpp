@@ -239,15 +239,12 @@ double place_on(const Vec3& p, const std::vector<Vec3>& line) {
     return place + nearest.fraction * (line[nearest.piece + 1] - line[nearest.piece]).norm();
 }
 
-// Returns the signed distance from the crease, m, positive towards the outside of the face. The crease goes on straight at its ends:
-// a distance from the end itself would bend the lines into rings around it.
+// Returns the signed distance from the crease, m, positive towards the outside of the face.
 double across_crease(const Vec3& p, const std::vector<Vec3>& line) {
     double best = 1e300, side = 1;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         const Vec3 along = line[i + 1] - line[i];
-        const double at = (p - line[i]).dot(along) / along.squaredNorm();
-        const double t = std::clamp(at, i == 0 ? std::min(at, 0.0) : 0.0,
-                                    i + 2 == line.size() ? std::max(at, 1.0) : 1.0);
+        const double t = std::clamp((p - line[i]).dot(along) / along.squaredNorm(), 0.0, 1.0);
         const Vec3 off = p - line[i] - t * along;
         if (off.squaredNorm() >= best) continue;
         best = off.squaredNorm();
