@@ -201,6 +201,34 @@ TEST(RenderJob, TakesAScriptFromMemoryAndNamesItInMessages) {
 }
 
 // A draft takes steps that are twice as long.
+TEST(RenderJob, LeavesTheHairOutWhereItIsAskedTo) {
+    const TemporaryFolder folder;
+    const fs::path rig = own_rig(folder.path());
+    const auto frames_of = [&](const char* style, const Json& view_hair,
+                               const std::optional<std::string>& asked) {
+        Json json = Json::parse(std::ifstream(rig));
+        json["appearance"]["hair_style"] = style;
+        std::ofstream(rig) << json.dump();
+        Json script = short_script(rig);
+        if (!view_hair.is_null()) script["view"]["hair"] = view_hair;
+        RenderRequest request;
+        request.script = folder.path() / "script.json";
+        std::ofstream(request.script) << script.dump();
+        request.out = folder.path() / "smile.mkv";
+        request.quality = "draft";
+        request.hair = asked;
+        return animate(request).frames_sha256;
+    };
+    const std::string bare = frames_of("shaven", nullptr, {});
+    const std::string bob = frames_of("bob", nullptr, {});
+    EXPECT_NE(bob, bare);
+    EXPECT_EQ(frames_of("bob", "none", {}), bare);
+    EXPECT_EQ(frames_of("bob", nullptr, "none"), bare);
+    EXPECT_EQ(frames_of("bob", "none", "own"), bob);
+    EXPECT_EQ(message_of([&] { frames_of("bob", nullptr, "wig"); }),
+              "hair: expected one of \"none\", \"own\", found \"wig\"");
+}
+
 TEST(RunRecord, TellsTheStepOfItsQuality) {
     RunRecord record;
     record.quality = "video";

@@ -69,6 +69,9 @@ void add_view(CLI::App& command, animate::RenderRequest& options, std::string& s
     command.add_option("--camera", options.camera,
                        "View instead of the script's: front, three_quarter, three_quarter_right, "
                        "profile, profile_right, top; close-ups eye, nose, mouth, ear");
+    command.add_option("--hair", options.hair,
+                       "Hair on the scalp instead of the script's: own, that of the rig; none, for "
+                       "studies that show the face alone");
     command.add_option("--quality", options.quality,
                        "Quality of the simulation: draft, preview, video or fine. Default: video");
     command

@@ -152,6 +152,9 @@ void plan_view(const RenderRequest& request, RenderJob& job) {
                  .view_angle_deg = asked.view_angle_deg,
                  .aperture_mm = asked.aperture_mm};
     view.draft = request.draft;
+    static const std::vector<std::string> kHair{"none", "own"};
+    view.hair =
+        request.hair ? index_of_name(option_name("hair"), *request.hair, kHair) == 1 : asked.hair;
     view.supersampling = request.antialiasing.value_or(request.draft ? 1 : asked.antialiasing);
     if (view.supersampling < 1 || view.supersampling > 4)
         throw Error(option_name("antialiasing"), "samples per pixel and side in [1, 4]",

@@ -44,6 +44,7 @@ struct RenderRequest {
     std::optional<int> fps;
     std::optional<std::string> camera;  ///< a name of render::camera_names()
     std::optional<std::string> show;    ///< a name of render::show_names()
+    std::optional<std::string> hair;    ///< "own", or "none": no locks on the scalp
     std::optional<double> still_s;      ///< a still of this time instead of a video
     /// How the video is encoded. plan_render_job() sets size, frame rate, transparency and sound.
     media::VideoOptions video{};

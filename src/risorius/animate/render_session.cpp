@@ -27,6 +27,7 @@ const render::Scene& RenderSession::scene(const render::ViewOptions& view, int v
     }
     views_.clear();
     scene_.emplace(scene::scene_from_rig(face_->head(), rig_->files.rig, rig_->files.mesh));
+    if (!view.hair) scene_->appearance.hair_style = "shaven";
     scene::add_wrinkles(face_->surfaces().wrinkle_lines(), *scene_);
     if (view.show == render::Show::kMuscles)
         scene_->muscles = scene::muscles_for_view(face_->surfaces().muscles());

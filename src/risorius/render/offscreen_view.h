@@ -71,6 +71,8 @@ struct ViewOptions {
     /// Number of worker threads of llvmpipe, the OpenGL driver on the CPU; 0: it draws on the calling thread. The driver reads
     /// the number once, so the first view of a process decides for all. Pictures do not depend on it.
     int threads = 0;
+    bool hair =
+        true;  ///< false: the scene has no locks on the scalp; whoever makes the scene leaves them out
     bool operator==(const ViewOptions&) const = default;
 };
 

@@ -42,7 +42,8 @@ ScriptLight read_light(const JsonCursor& json) {
 
 ScriptView read_view(const JsonCursor& json) {
     json.allow_keys({"width_px", "height_px", "camera", "show", "background", "light", "projection",
-                     "distance_m", "view_angle_deg", "aperture_mm", "shutter_deg", "antialiasing"});
+                     "distance_m", "view_angle_deg", "aperture_mm", "shutter_deg", "antialiasing",
+                     "hair"});
     ScriptView view;
     if (const auto v = json.find("light")) view.light = read_light(*v);
     if (const auto v = json.find("projection"))
@@ -52,6 +53,7 @@ ScriptView read_view(const JsonCursor& json) {
     if (const auto v = json.find("aperture_mm")) view.aperture_mm = v->number({0, 100});
     if (const auto v = json.find("shutter_deg")) view.shutter_deg = v->number({0, 360});
     if (const auto v = json.find("antialiasing")) view.antialiasing = v->integer(1, 4);
+    if (const auto v = json.find("hair")) view.hair = v->one_of({"own", "none"}) == "own";
     if (const auto v = json.find("width_px")) view.width_px = v->integer(16, 8192);
     if (const auto v = json.find("height_px")) view.height_px = v->integer(16, 8192);
     if (const auto v = json.find("camera"))

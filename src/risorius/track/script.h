@@ -35,9 +35,10 @@ struct ScriptLight {
 struct ScriptView {
     int width_px = 1024;  ///< 16..8192
     int height_px = 1024;
-    std::string camera = "front";                      ///< a name of render::camera_names()
-    std::string show = "skin";                         ///< a name of render::show_names()
-    bool orthographic = false;                         ///< "projection"
+    std::string camera = "front";  ///< a name of render::camera_names()
+    std::string show = "skin";     ///< a name of render::show_names()
+    bool orthographic = false;     ///< "projection"
+    bool hair = true;              ///< false: "hair": "none", no locks on the scalp
     std::optional<double> distance_m, view_angle_deg;  ///< see render::Lens
     double aperture_mm = 0;
     /// Time that the shutter is open, centred at the frame's time; 360 is the whole frame, [0, 360].
