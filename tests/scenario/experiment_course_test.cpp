@@ -175,7 +175,9 @@ TEST_F(ExperimentCourse, HasPracticeBlocksCatchTrialsAndAScanner) {
         const Json sample = Json::parse(line.substr(line.find('{')));
         EXPECT_NE(sample.at("code"), 0);
         ++events[sample.at("event").get<std::string>()];
-        if (sample.at("event") == "clip_on") EXPECT_EQ(sample.at("code"), 1);
+        if (sample.at("event") == "clip_on") {
+            EXPECT_EQ(sample.at("code"), 1);
+        }
     }
     EXPECT_EQ(events["clip_on"], 17);
     EXPECT_EQ(events["response"], 14);

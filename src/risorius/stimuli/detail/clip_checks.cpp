@@ -7,6 +7,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
+#include "risorius/track/timeline.h"
 
 namespace risorius::stimuli {
 
@@ -33,10 +34,10 @@ animate::RenderJob planned_job(const ClipPlan& plan, animate::RenderInputs& inpu
 
 }  // namespace
 
-void ClipChecks::check(const ClipPlan& plan, const track::Timeline& timeline,
+void ClipChecks::check(const ClipPlan& plan, const track::ScriptDescription& script,
                        animate::RenderInputs& inputs, const std::string& place) {
     check_render(plan, inputs);
-    if (plan.condition.control.passes()) check_filter(plan, timeline, inputs, place);
+    if (plan.condition.control.passes()) check_filter(plan, script, inputs, place);
 }
 
 void ClipChecks::check_render(const ClipPlan& plan, animate::RenderInputs& inputs) {
@@ -68,9 +69,11 @@ const animate::PlannedLandmarks& ClipChecks::landmarks_of(const ClipPlan& plan,
     return *known;
 }
 
-void ClipChecks::check_filter(const ClipPlan& plan, const track::Timeline& timeline,
+void ClipChecks::check_filter(const ClipPlan& plan, const track::ScriptDescription& script,
                               animate::RenderInputs& inputs, const std::string& place) {
     const animate::PlannedLandmarks& landmarks = landmarks_of(plan, inputs);
+    const track::ChannelTable channels = inputs.rig(script.header.rig_file)->files.rig.channels();
+    const track::Timeline timeline(script, channels);
     const auto width_px = [&](int frame) {
         return landmarks.distance_px("zy_l", "zy_r",
                                      timeline.at(static_cast<double>(frame) / plan.fps));

@@ -12,23 +12,23 @@
 
 #include "risorius/animate/planned_landmarks.h"
 #include "risorius/stimuli/detail/clip.h"
-#include "risorius/track/timeline.h"
+#include "risorius/track/script.h"
 
 namespace risorius::stimuli {
 
 /// Checks the clips of a design. What many of them have in common is checked once. Several threads may use it.
 class ClipChecks {
   public:
-    /// `timeline`: of the clip's script. Throws Error naming `place`, or the file that is wrong.
-    void check(const ClipPlan& plan, const track::Timeline& timeline, animate::RenderInputs& inputs,
-               const std::string& place);
+    /// `script`: that of the clip. Throws Error naming `place`, or the file that is wrong.
+    void check(const ClipPlan& plan, const track::ScriptDescription& script,
+               animate::RenderInputs& inputs, const std::string& place);
 
     /// Inputs for plans of scripts that speak.
     animate::RenderInputs& quick_inputs() { return quick_; }
 
   private:
     void check_render(const ClipPlan& plan, animate::RenderInputs& inputs);
-    void check_filter(const ClipPlan& plan, const track::Timeline& timeline,
+    void check_filter(const ClipPlan& plan, const track::ScriptDescription& script,
                       animate::RenderInputs& inputs, const std::string& place);
     const animate::PlannedLandmarks& landmarks_of(const ClipPlan& plan,
                                                   animate::RenderInputs& inputs);

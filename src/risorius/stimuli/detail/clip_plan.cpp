@@ -284,7 +284,7 @@ ClipPlan plan_clip(design::Condition planned, double lead_s, const PlanShared& s
     const std::string rig_sha256 = sha256_of_rig(*input);
     plan.scene_sha256 = animate::sha256_of_text(
         json_text(Json{rig_sha256, clips.quality, condition.script.value("view", Json())}));
-    shared.checks.check(plan, track::Timeline(script, channels), shared.inputs, plan.script_name);
+    shared.checks.check(plan, script, shared.inputs, plan.script_name);
     plan.render_sha256 = render_sha256_of(plan, rig_sha256);
     if (!condition.lower_script.is_null()) plan.lower = plan_lower_half(plan, lead_s, shared);
     plan.content_sha256 = content_sha256_of(plan);
