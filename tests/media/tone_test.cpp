@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <utility>
+
 #include "risorius/media/luminance.h"
 
 namespace risorius::media {
@@ -43,6 +46,40 @@ TEST(Tone, GivesPicturesTheMeanAndDeviationAskedFor) {
     // random.
     EXPECT_NEAR(after.mean(), 0.4, 5e-4);
     EXPECT_NEAR(after.sd(), 0.1, 5e-4);
+}
+
+// A dark face needs a gain of 3 to 6: from bytes, most of the values in between are never shown.
+TEST(Tone, OfSixteenBitsFillsTheStepsBetweenBytes) {
+    Image deep(2560, 1);
+    for (int x = 0; x < 2560; ++x) {
+        const auto value = static_cast<std::uint16_t>(7000 + 2 * x);
+        for (int k = 0; k < 3; ++k) {
+            deep.deep.push_back(value);
+            deep.pixel(x, 0)[k] = static_cast<std::uint8_t>((value + 128U) / 257U);
+        }
+        deep.deep.push_back(65535);
+        deep.pixel(x, 0)[3] = 255;
+    }
+    Image bytes = deep;
+    bytes.deep.clear();
+    LuminanceSums before;
+    before.add(deep);
+    const Tone tone = tone_between(before, 0.3, 0.06);
+    EXPECT_GT(tone.gain, 5);
+    const auto levels = [&](Image image) {
+        ToneCurve(tone).apply_over({128, 128, 128}, image);
+        EXPECT_TRUE(image.deep.empty());
+        std::set<int> out;
+        for (int x = 0; x < image.width_px; ++x) out.insert(image.pixel(x, 0)[1]);
+        return std::pair{out.size(), *out.rbegin() - *out.begin() + 1};
+    };
+    EXPECT_EQ(static_cast<int>(levels(deep).first), levels(deep).second) << "no step is left out";
+    EXPECT_LT(static_cast<int>(levels(bytes).first), levels(bytes).second / 2);
+    LuminanceSums after;
+    ToneCurve(tone).apply(deep);
+    after.add(deep);
+    EXPECT_NEAR(after.mean(), 0.3, 1e-4);
+    EXPECT_NEAR(after.sd(), 0.06, 1e-4);
 }
 
 TEST(Tone, TellsHowMuchItCutsOff) {

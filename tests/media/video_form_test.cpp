@@ -214,8 +214,9 @@ TEST(VideoForm, RefusesWhatAFormDoesNotHave) {
     EXPECT_EQ(refusal("a.mp4", {.crf = 3, .lossless = true}),
               "a.mp4: expected an option that goes with lossless, found a quality (crf)");
     EXPECT_EQ(refusal("a.mp4", {.bits = 16}),
-              "a.mp4: expected a folder of PNG frames (frames/), whose bits can be chosen, found "
-              "\".mp4\"");
+              "a.mp4: expected a folder of PNG frames (frames/) or .mkv, whose bits can be chosen, "
+              "found \".mp4\"");
+    EXPECT_EQ(refusal("a.mkv", {.bits = 12}), "a.mkv: expected 8 or 16 bits per channel, found 12");
     EXPECT_EQ(refusal("f/", {.bits = 12}), "f/: expected 8 or 16 bits per channel, found 12");
     EXPECT_EQ(refusal("a.mp4", {.alpha = true}),
               "a.mp4: expected an ending that keeps transparency, .mkv, .mov, .webm or /, found "

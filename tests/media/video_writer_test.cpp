@@ -115,6 +115,46 @@ TEST(VideoWriter, MatroskaKeepsTransparencyBitForBit) {
                   noise(kWidth, kHeight, static_cast<unsigned>(n), /*opaque=*/false).rgba);
 }
 
+TEST(VideoWriter, MatroskaKeepsSixteenBitsWithTransparency) {
+    const TemporaryFolder folder;
+    VideoOptions deep = options();
+    deep.bits = 16;
+    const auto picture = [](unsigned n) {
+        Image image = noise(kWidth, kHeight, n, /*opaque=*/false);
+        for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+            image.deep.push_back(static_cast<std::uint16_t>(257 * image.rgba[i] ^ (i * 31 & 63)));
+            image.rgba[i] = static_cast<std::uint8_t>((image.deep[i] + 128U) / 257U);
+        }
+        return image;
+    };
+    for (const bool alpha : {true, false}) {
+        const std::filesystem::path file = folder / (alpha ? "a.mkv" : "b.mkv");
+        VideoWriter writer(file, deep);
+        for (unsigned n = 0; n < 3; ++n) {
+            Image image = picture(n);
+            for (std::size_t i = 3; !alpha && i < image.deep.size(); i += 4) {
+                image.deep[i] = 65535;
+                image.rgba[i] = 255;
+            }
+            writer.append(image);
+        }
+        // Bytes alone become 257 times as much.
+        writer.append(noise(kWidth, kHeight, 7, !alpha));
+        writer.finish();
+        VideoReader video(file);
+        for (int n = 0; n < 3; ++n) {
+            const Image read = video.frame(n), wanted = picture(static_cast<unsigned>(n));
+            ASSERT_EQ(read.deep.size(), wanted.deep.size());
+            for (std::size_t i = 0; i < wanted.deep.size(); ++i)
+                if (alpha || i % 4 != 3) {
+                    ASSERT_EQ(read.deep[i], wanted.deep[i]) << n << " " << i;
+                    ASSERT_EQ(read.rgba[i], wanted.rgba[i]) << n << " " << i;
+                }
+        }
+        EXPECT_EQ(video.frame(3).rgba, noise(kWidth, kHeight, 7, !alpha).rgba);
+    }
+}
+
 TEST(VideoWriter, FolderHoldsEveryFrameBitForBit) {
     const TemporaryFolder folder;
     VideoWriter writer(folder / "frames/", options());

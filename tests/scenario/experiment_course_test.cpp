@@ -107,11 +107,12 @@ class ExperimentCourse : public testing::Test {
     }
     static std::string missing_browser() { return missing_for_pages(folder->path()); }
     /// Plays a page with a server that saves nothing, and returns what is offered.
-    static Json offered_by(const std::string& page) {
+    static Json offered_by(const std::string& page, int run = 1) {
         const fs::path data = *folder / "offered.json";
         const report::ProgramResult played =
             run_program({"python3", (kPrograms / "play.py").string(), folder->path().string(),
-                         "set/experiment/" + page, data.string(), "chromium", "--dead-save"});
+                         "set/experiment/" + page, data.string(), "chromium", "--dead-save",
+                         "--run=" + std::to_string(run)});
         EXPECT_EQ(played.exit_code, 0) << played.output;
         return Json::parse(text_of(data), nullptr, false);
     }
@@ -174,7 +175,9 @@ TEST_F(ExperimentCourse, HasPracticeBlocksCatchTrialsAndAScanner) {
         const Json sample = Json::parse(line.substr(line.find('{')));
         EXPECT_NE(sample.at("code"), 0);
         ++events[sample.at("event").get<std::string>()];
-        if (sample.at("event") == "clip_on") EXPECT_EQ(sample.at("code"), 1);
+        if (sample.at("event") == "clip_on") {
+            EXPECT_EQ(sample.at("code"), 1);
+        }
     }
     EXPECT_EQ(events["clip_on"], 17);
     EXPECT_EQ(events["response"], 14);
@@ -215,6 +218,115 @@ TEST_F(ExperimentCourse, FindsTheThresholdOfAnObserverByQuest) {
     EXPECT_LT(found[0.35], found[0.7]);
 }
 
+TEST_F(ExperimentCourse, FindsThresholdAndSlopeByQuestPlus) {
+    ASSERT_TRUE(make({{"method", "questplus"},
+                      {"over", "strength"},
+                      {"series_by", Json::array()},
+                      {"trials", 100}})
+                    .complete);
+    if (!has_python()) GTEST_SKIP() << "no python3 here";
+    for (const double threshold : {0.2, 0.35, 0.7}) {
+        const auto files = play({"STAND_IN_OBSERVER=" + std::to_string(threshold)});
+        EXPECT_EQ(table_of(files.at(".csv"), ',').size(), 100u);
+        const auto found = table_of(files.at("_thresholds.csv"), ',');
+        ASSERT_EQ(found.size(), 1u);
+        EXPECT_EQ(found[0].at("method"), "questplus");
+        const double sd = std::stod(found[0].at("sd_log10"));
+        EXPECT_NEAR(std::log10(std::stod(found[0].at("threshold")) / threshold), 0, 3 * sd);
+        EXPECT_LT(sd, 0.08);
+        // The observer's slope is 3.5. So few levels tell only that it is neither flat nor a step.
+        EXPECT_GT(std::stod(found[0].at("slope")), 1.5);
+        EXPECT_LT(std::stod(found[0].at("slope")), 8);
+        EXPECT_LT(std::stod(found[0].at("lapse")), 0.05);
+    }
+}
+
+// The class that a page has is that of experiment.py: the same levels in the same trials.
+TEST_F(ExperimentCourse, OfJsPsychAsksAsPsychoPyDoesByQuestPlus) {
+    const Json course{
+        {"programs", {"psychopy", "jspsych"}}, {"method", "questplus"}, {"over", "strength"},
+        {"series_by", Json::array()},          {"trials", 8},           {"catch", 0.25}};
+    ASSERT_TRUE(make(course, {{"response", true}}).complete);
+    if (const std::string missing = missing_browser(); !missing.empty()) GTEST_SKIP() << missing;
+    const fs::path here = *folder / "set/experiment";
+    const std::string page = text_of(here / "index.html");
+    const std::size_t begin = page.find("class QuestPlus {"), end = page.find("\n}\n", begin);
+    ASSERT_NE(end, std::string::npos);
+    std::ofstream(*folder / "quest.js")
+        << page.substr(begin, end - begin + 3)
+        << "const quest = new QuestPlus([-1, -0.7, -0.5, -0.3, -0.1, 0], 40, 0.5);\n"
+           "for (let trial = 0; trial < 40; ++trial) {\n"
+           "    const level = quest.next();\n"
+           "    quest.answered(trial % 5 !== 2 || level > -0.3, level);\n"
+           "    console.log(level, quest.mean(quest.atRight).toFixed(6));\n}\n";
+    std::ofstream(*folder / "quest.py")
+        << "import experiment\n"
+           "quest = experiment.QuestPlus([-1, -0.7, -0.5, -0.3, -0.1, 0], 40, 0.5)\n"
+           "for trial in range(40):\n"
+           "    level = next(quest)\n"
+           "    quest.addResponse(int(trial % 5 != 2 or level > -0.3), intensity=level)\n"
+           "    print(level, f'{quest.mean():.6f}')\n";
+    const report::ProgramResult js = run_program({"node", (*folder / "quest.js").string()});
+    const report::ProgramResult py =
+        run_program({"env", "PYTHONPATH=" + (kPrograms / "stand_in").string() + ":" + here.string(),
+                     "PYTHONDONTWRITEBYTECODE=1", "python3", (*folder / "quest.py").string()});
+    ASSERT_EQ(js.exit_code, 0) << js.output;
+    ASSERT_EQ(py.exit_code, 0) << py.output;
+    EXPECT_EQ(js.output, py.output);
+
+    const Json left = offered_by("index.html", 2);
+    ASSERT_TRUE(left.is_object()) << left;
+    const auto of_run = [&](const std::string& name) {
+        return left.at("files").at("sub-7_task-course_run-2_" + name).get<std::string>();
+    };
+    const auto found = table_of(of_run("thresholds.csv"), ',');
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].at("trials"), "8");
+    EXPECT_GT(std::stod(found[0].at("threshold")), 0.05);
+    const auto dots = table_of(of_run("catch.csv"), ',');
+    EXPECT_EQ(dots.at(0).at("catch_trials"), "2");
+    EXPECT_EQ(dots.at(0).at("hits"), "2");
+    EXPECT_EQ(dots.at(0).at("false_alarms"), "0");
+    // Codes as the table of triggers has them, and 6 for an answer
+    int answers = 0;
+    for (const Json& trial : left.at("kept").at(0)) {
+        if (trial.value("task", "") != "answer") continue;
+        ++answers;
+        EXPECT_EQ(trial.at("run"), 2);
+        const auto codes = trial.at("codes").get<std::string>();
+        EXPECT_EQ(codes.find("1@0.0000 "), 0u) << codes;
+        EXPECT_NE(codes.find(" 4@0.4000 6@"), std::string::npos) << codes;
+    }
+    EXPECT_GE(answers, 8);
+}
+
+TEST_F(ExperimentCourse, CountsPressesWithoutARedDot) {
+    ASSERT_TRUE(make({{"catch", 0.25}}).complete);
+    if (!has_python()) GTEST_SKIP() << "no python3 here";
+    const auto files = play({"STAND_IN_ALARMS=4"});
+    int alarms = 0;
+    for (const auto& row : table_of(files.at(".csv"), ',')) {
+        EXPECT_EQ(row.at("kind") == "catch" && row.at("false_alarm") == "1", false);
+        alarms += row.at("false_alarm") == "1";
+    }
+    EXPECT_EQ(alarms, 3) << "in every fourth of twelve trials";
+    EXPECT_EQ(files.at("_catch.csv"),
+              "catch_trials,hits,other_trials,false_alarms\r\n3,3,12,3\r\n");
+    for (const auto& event : table_of(files.at("_events.tsv"), '\t'))
+        EXPECT_TRUE(event.at("false_alarm") == "0" || event.at("false_alarm") == "1");
+    // The norms of the set count them, too
+    fs::path data;
+    for (const auto& entry : fs::directory_iterator(*folder / "set/experiment/data"))
+        if (const std::string name = entry.path().filename().string();
+            name.ends_with(".csv") && !name.ends_with("_catch.csv"))
+            data = entry.path();
+    ASSERT_TRUE(make({{"catch", 0.25}}, Json::object(), data.string()).complete);
+    const Json norms = Json::parse(text_of(*folder / "set/norms/norms.json"));
+    EXPECT_EQ(norms.at("catch").at("false_alarms"), 3);
+    EXPECT_EQ(norms.at("catch").at("hits"), 3);
+    EXPECT_EQ(norms.at("answers").at("happiness").at("shown"), 6) << "catch trials are no ratings";
+}
+
 TEST_F(ExperimentCourse, HasAStaircaseForEachExpressionOverWhatIsSeen) {
     ASSERT_TRUE(make({{"method", "staircase"}, {"trials", 60}}).complete);
     if (!has_python()) GTEST_SKIP() << "no python3 here";
@@ -250,18 +362,19 @@ TEST_F(ExperimentCourse, IsRefusedWhereItCannotBeRun) {
               std::string::npos);
     EXPECT_EQ(refusal({{"method", "quest"}, {"programs", {"jspsych"}}}),
               design +
-                  ":/experiment/method: expected \"constant\" for jspsych, whose order is fixed "
-                  "before the first trial, found \"quest\"");
+                  ":/experiment/method: expected \"constant\" or \"questplus\" for jspsych, which "
+                  "has no other method, found \"quest\"");
     EXPECT_EQ(refusal({{"trials", 20}}), design +
-                                             ":/experiment/trials: expected none without "
-                                             "\"method\": \"staircase\" or \"quest\", found "
-                                             "20");
+                                             ":/experiment/trials: expected none without a "
+                                             "\"method\" that chooses its clips, found 20");
     EXPECT_EQ(refusal({{"method", "quest"}, {"over", "expression"}}),
-              "experiment/over: expected a parameter with numbers above 0 in all clips, found "
-              "\"expression\", \"happiness\" in happiness0p1");
-    EXPECT_EQ(refusal({{"method", "quest"}, {"series_by", {"strength"}}, {"over", "strength"}})
-                  .substr(0, 67),
-              "experiment/method: expected two levels at least in each series, fou");
+              design +
+                  ":/experiment/over: expected a parameter with numbers above 0 in all clips, "
+                  "found \"expression\", \"happiness\" in happiness0p1");
+    EXPECT_EQ(
+        refusal({{"method", "quest"}, {"series_by", {"strength"}}, {"over", "strength"}})
+            .find(design + ":/experiment/method: expected two levels at least in each series, "),
+        0u);
     EXPECT_EQ(
         refusal({{"answers", {{"5", "happiness"}, {"f", "fear"}}}}, {{"wait_for", "5"}}),
         design +

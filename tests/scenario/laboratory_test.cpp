@@ -15,6 +15,7 @@
 #include "risorius/core/sha256.h"
 #include "risorius/media/tone.h"
 #include "risorius/media/video_reader.h"
+#include "risorius/report/run_program.h"
 #include "risorius/scene/face_oval.h"
 #include "risorius/stimuli/batch.h"
 #include "scenario/run_program.h"
@@ -53,6 +54,20 @@ Json laboratory_design(const fs::path& other_head) {
 /// The rows of a table with tabs, each as column -> cell.
 std::vector<std::map<std::string, std::string>> table_of(const fs::path& file) {
     const animate::FrameRows rows = animate::frame_rows(text_of(file));
+    std::vector<std::map<std::string, std::string>> out;
+    for (const std::vector<std::string>& cells : rows.cells) {
+        out.emplace_back();
+        for (std::size_t c = 0; c < cells.size(); ++c) out.back()[rows.names[c]] = cells[c];
+    }
+    return out;
+}
+
+/// The rows of a table with commas and no quotes.
+std::vector<std::map<std::string, std::string>> table_with_commas(const fs::path& file) {
+    std::string text = text_of(file);
+    std::erase(text, '\r');
+    std::replace(text.begin(), text.end(), ',', '\t');
+    const animate::FrameRows rows = animate::frame_rows(text);
     std::vector<std::map<std::string, std::string>> out;
     for (const std::vector<std::string>& cells : rows.cells) {
         out.emplace_back();
@@ -109,35 +124,46 @@ media::LuminanceSums decoded_luminance(const fs::path& set, const std::string& c
 }
 
 TEST_F(Laboratory, BackgroundIsThatOfTheScriptInEveryFrameOfEveryClip) {
+    int largest = 0;
     for (const auto& row : table_of(*folder / "set/luminance/luminance.tsv")) {
         media::VideoReader video(video_of(row.at("stim_id")));
         for (int n = 0; n < video.frames(); ++n) {
             const Image frame = video.frame(n);
             for (int y = 0; y < 5; ++y)
                 for (int x = 0; x < 5; ++x)
-                    for (int k = 0; k < 3; ++k)
+                    for (int k = 0; k < 3; ++k) {
                         ASSERT_NEAR(frame.pixel(x, y)[k], 128, 1) << row.at("stim_id") << " " << n;
+                        largest = std::max(largest, std::abs(frame.pixel(x, y)[k] - 128));
+                    }
         }
     }
+    RecordProperty("largest_difference_from_128", largest);
 }
 
 TEST_F(Laboratory, LuminanceIsWhatIsShownAndWhatWasAskedFor) {
     std::map<char, media::LuminanceSums> of_head;
+    double largest = 0;
     int neutral = 0;
     for (const auto& row : table_of(*folder / "set/luminance/luminance.tsv")) {
         const std::string& clip = row.at("stim_id");
         const media::LuminanceSums decoded = decoded_luminance(*folder / "set", clip);
-        EXPECT_NEAR(std::stod(row.at("mean_after")), decoded.mean(), 0.003) << clip;
-        EXPECT_NEAR(std::stod(row.at("sd_after")), decoded.sd(), 0.004) << clip;
+        const double mean_error = std::stod(row.at("mean_after")) - decoded.mean(),
+                     sd_error = std::stod(row.at("sd_after")) - decoded.sd();
+        EXPECT_NEAR(mean_error, 0, 0.002) << clip;
+        EXPECT_NEAR(sd_error, 0, 0.002) << clip;
+        largest = std::max({largest, std::abs(mean_error), std::abs(sd_error)});
         if (row.at("control") == "n/a") of_head[clip[0]].add(decoded);
         neutral += row.at("control") == "neutral";
         EXPECT_LE(std::stod(row.at("cut_off")), 0.005) << clip;
     }
     ASSERT_EQ(of_head.size(), 2u);
     for (const auto& [head, sums] : of_head) {
-        EXPECT_NEAR(sums.mean(), kMean, 0.003) << head;
+        EXPECT_NEAR(sums.mean(), kMean, 0.002) << head;
         EXPECT_NEAR(sums.sd(), kSd, 0.003) << head;
+        RecordProperty(std::string("mean_of_head_") + head, std::to_string(sums.mean()));
+        RecordProperty(std::string("sd_of_head_") + head, std::to_string(sums.sd()));
     }
+    RecordProperty("largest_difference_from_a_decode", std::to_string(largest));
     EXPECT_EQ(neutral, 2) << "one neutral face of a head, one brightness";
 }
 
@@ -168,6 +194,66 @@ TEST_F(Laboratory, StillsHaveNoMomentsAndTheyNeverComeAfterTheClip) {
         if (still) continue;
         EXPECT_LE(at.at("movement_onset"), at.at("apex")) << clip;
         EXPECT_LT(at.at("apex"), 12) << clip;
+    }
+}
+
+/// Plays experiment.py of the set on a screen of so many hertz.
+report::ProgramResult play_on(const fs::path& experiment, const std::string& hz) {
+    return report::run_program(
+        {"env", "PYTHONPATH=" + (kRoot / "tests/data/experiment/stand_in").string(),
+         "PYTHONDONTWRITEBYTECODE=1", "STAND_IN_HZ=" + hz, "python3",
+         (experiment / "experiment.py").string(), "--participant", "7", "--window"});
+}
+
+TEST_F(Laboratory, PortGetsTheTableOfTriggersInAllClips) {
+    if (report::run_program({"python3", "--version"}).exit_code != 0)
+        GTEST_SKIP() << "no python3 here";
+    const fs::path here = *folder / "set/experiment";
+    std::map<std::string, std::vector<std::pair<int, double>>> wanted;
+    for (const auto& row : table_of(*folder / "set/triggers.tsv"))
+        if (row.at("merged_into") == "n/a")
+            wanted[row.at("stim_id")].emplace_back(std::stoi(row.at("code")),
+                                                   std::stod(row.at("time_s")));
+    for (const char* hz : {"60", "120"}) {
+        fs::remove_all(here / "data");
+        const report::ProgramResult result = play_on(here, hz);
+        ASSERT_EQ(result.exit_code, 0) << result.output;
+        fs::path data;
+        for (const auto& entry : fs::directory_iterator(here / "data"))
+            if (entry.path().extension() == ".csv") data = entry.path();
+        std::set<std::string> clips;
+        for (const auto& row : table_with_commas(data)) {
+            const std::string& clip = row.at("stim_id");
+            clips.insert(clip);
+            std::istringstream codes(row.at("codes"));
+            std::vector<std::pair<int, double>> sent;
+            double last_s = 0;
+            for (std::string one; codes >> one;) {
+                const int code = std::stoi(one);
+                const double at_s = std::stod(one.substr(one.find('@') + 1));
+                if (code != 0)
+                    sent.emplace_back(code, at_s);
+                else
+                    EXPECT_TRUE(at_s - last_s >= 0.010 && at_s - last_s <= 0.020)
+                        << clip << " at " << hz << " Hz: " << at_s - last_s << " s";
+                last_s = at_s;
+            }
+            ASSERT_EQ(sent.size(), wanted.at(clip).size()) << clip;
+            for (std::size_t i = 0; i < sent.size(); ++i) {
+                EXPECT_EQ(sent[i].first, wanted.at(clip)[i].first) << clip;
+                EXPECT_NEAR(sent[i].second, wanted.at(clip)[i].second, 1e-4) << clip;
+            }
+        }
+        EXPECT_EQ(clips.size(), 42u) << "all clips";
+    }
+    // Screens on which a frame of 20 fps does not last whole refreshes
+    fs::remove_all(here / "data");
+    for (const char* hz : {"50", "144"}) {
+        const report::ProgramResult result = play_on(here, hz);
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_NE(result.output.find("do not divide the screen's"), std::string::npos)
+            << result.output;
+        EXPECT_FALSE(fs::exists(here / "data")) << "refused before any file is opened";
     }
 }
 

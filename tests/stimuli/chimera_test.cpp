@@ -2,6 +2,7 @@
 // Chimeric clips: which half shows which condition, where the seam is, and the tables of both.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -45,6 +46,27 @@ class Chimeric : public Batch {
             {"control": "chimeric", "lower": {"expression": "surprise"}, "offset": 0.3,
              "when": {"expression": "happiness"}}])";
 };
+
+/// A cell of stimuli.tsv as a number.
+double listed(const BatchOptions& set, const std::string& clip, const char* column) {
+    const animate::FrameRows rows = animate::frame_rows(text_of(set.out / "stimuli/stimuli.tsv"));
+    for (int r = 0; r < rows.rows(); ++r)
+        if (rows.cells[static_cast<std::size_t>(r)][0] == "stim-" + clip)
+            return rows.number(r, rows.column(column));
+    return NAN;
+}
+
+// Of surprise the jaw goes farthest, which the lower half shows; of happiness the corners of the mouth, which the upper half lacks.
+void expect_halves(const BatchOptions& set, const std::string& clip) {
+    EXPECT_NEAR(listed(set, clip, "seen_lower_mm"), listed(set, "surprise", "seen_mm"), 1e-3);
+    EXPECT_NEAR(listed(set, clip, "seen_lower_share"), listed(set, "surprise", "seen_share"), 1e-4);
+    EXPECT_LT(listed(set, clip, "seen_upper_mm"), 0.7 * listed(set, "happiness", "seen_mm"));
+    EXPECT_GT(listed(set, clip, "seen_upper_mm"), 0.5);
+    EXPECT_GT(listed(set, clip, "seen_upper_share"), 0.6);
+    EXPECT_LT(listed(set, clip, "seen_upper_share"), 1.1);
+    EXPECT_EQ(listed(set, clip, "seen_mm"),
+              std::max(listed(set, clip, "seen_lower_mm"), listed(set, clip, "seen_upper_mm")));
+}
 
 TEST_F(Chimeric, ShowsTwoConditionsAboveAndBelowTheSeam) {
     const BatchOptions set = options_of(two_faces(kSurprised), "halves");
@@ -116,6 +138,11 @@ TEST_F(Chimeric, ShowsTwoConditionsAboveAndBelowTheSeam) {
                 surprised.number(4, surprised.column("ch_l.u_px")) + offset, 1e-3);
     const std::string list = text_of(set.out / "stimuli/stimuli.tsv");
     EXPECT_NE(list.find("\tseam_row_px\tseam_difference\t"), std::string::npos);
+    expect_halves(set, name);
+    expect_halves(set, moved);
+    const Json upper_half = sidecar.at("motion").at("upper");
+    EXPECT_EQ(upper_half.at("seen_landmark").get<std::string>().find("ch_"), std::string::npos);
+    EXPECT_GT(upper_half.at("seen_onset_frame"), 0);
     EXPECT_EQ(make_batch(set).kept, 4);
 }
 
@@ -138,6 +165,22 @@ TEST_F(Chimeric, GoesWithPicturesAndMatchedLuminance) {
             const std::uint8_t *a = chimera.pixel(x, y), *b = (y < 30 ? upper : lower).pixel(x, y);
             for (int k = 0; k < 3; ++k) ASSERT_NEAR(a[k], b[k], 1) << x << " " << y;
         }
+    expect_halves(set, "happinessChimericSurprise");
+}
+
+TEST_F(Chimeric, HasNoMotionInAHalfThatStandsStill) {
+    Json json = two_faces(R"([{"control": "chimeric", "lower": {"strength": 0},
+                               "when": {"expression": "surprise"}}])");
+    json["sets"][0]["parameters"]["strength"] = 1;
+    json["sets"][0]["script"]["events"][0]["intensity"] = "${strength}";
+    const BatchOptions set = options_of(json, "still");
+    ASSERT_EQ(make_batch(set).made, 3);
+    const std::string clip = "surpriseChimeric0";
+    EXPECT_EQ(listed(set, clip, "seen_lower_mm"), 0);
+    EXPECT_GT(listed(set, clip, "seen_upper_mm"), 1);
+    const std::string record = text_of(set.out / ("stimuli/stim-" + clip + "_video.json"));
+    EXPECT_TRUE(Json::parse(record).at("motion").at("lower").at("full_mm").is_null())
+        << "a face at rest has no share";
 }
 
 TEST_F(Chimeric, RefusesHalvesThatDoNotFit) {

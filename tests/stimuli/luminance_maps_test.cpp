@@ -8,6 +8,7 @@
 #include <cmath>
 #include <complex>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "message_of.h"
@@ -16,6 +17,8 @@
 #include "risorius/media/luminance.h"
 #include "risorius/media/video_reader.h"
 #include "risorius/scene/face_oval.h"
+#include "risorius/stimuli/detail/luminance_match.h"
+#include "risorius/stimuli/detail/unmatched_render.h"
 #include "temporary_folder.h"
 
 namespace risorius::stimuli {
@@ -196,6 +199,100 @@ TEST_F(LuminanceMaps, HeadsAndViewsHaveOneHistogramAndOneSpectrum) {
     parts.parts = parts.part = 1;
     EXPECT_TRUE(make_batch(parts).complete);
     EXPECT_EQ(text_in_set(parts.out / "SHA256SUMS"), sums);
+}
+
+/// How far groups are from what their maps aim at: RMS of the histogram / its deviation, and of the amplitudes, relative, with the worst.
+struct Misses {
+    double histogram = 0, amplitude = 0, worst = 0;
+};
+Misses misses_of(const std::vector<media::LuminancePlane>& planes, const MappedLuminance& mapped) {
+    Misses out;
+    const std::vector<double> found = quantiles_of(planes);
+    for (std::size_t i = 0; i < found.size(); ++i)
+        out.histogram += std::pow(found[i] - mapped.target[i], 2);
+    out.histogram = std::sqrt(out.histogram / static_cast<double>(found.size())) /
+                    media::sd_of_quantiles(mapped.target);
+    media::RingAmplitudes rings;
+    for (const media::LuminancePlane& plane : planes)
+        rings.add(plane, media::mean_of_quantiles(mapped.target));
+    const std::vector<double> amplitudes = rings.amplitudes();
+    const int finest = planes.front().width_px / 3;
+    for (int r = 2; r <= finest; ++r) {
+        const auto at = static_cast<std::size_t>(r);
+        const double error = amplitudes[at] / mapped.amplitudes[at] - 1;
+        out.amplitude += error * error / (finest - 1);
+        out.worst = std::max(out.worst, std::abs(error));
+    }
+    out.amplitude = std::sqrt(out.amplitude);
+    return out;
+}
+
+// Nothing is rounded until a picture is shown. What is left then is what 8 bits leave.
+TEST_F(LuminanceMaps, ReachTheirTargetsUntilTheLastRounding) {
+    Json json = Json::parse(text_in_set(design({{"within", "face"},
+                                                {"mean", 0.25},
+                                                {"sd", 0.1},
+                                                {"histogram", true},
+                                                {"spectrum", "rotational"}})));
+    json["sets"][0]["script"]["view"]["width_px"] = 192;
+    json["sets"][0]["script"]["view"]["height_px"] = 192;
+    const fs::path file = design({{"mean", 0.3}});
+    std::ofstream(file) << json.dump();
+    const fs::path deep = options(file, "deep").out;
+    BatchPlan plan = plan_batch(file);
+    {
+        animate::RenderSession session;
+        SettledMotions settled;
+        const ProgressMonitor quiet;
+        for (const std::size_t i : unmeasured(plan, deep))
+            make_unmatched_render(plan.clips[i], {.folder = deep,
+                                                  .threads = 1,
+                                                  .clips_at_once = 1,
+                                                  .inputs = *plan.inputs,
+                                                  .session = session,
+                                                  .settled = settled,
+                                                  .monitor = quiet});
+    }
+    fit_maps(deep, plan);
+    std::map<std::string, std::array<std::vector<media::LuminancePlane>, 2>> groups;
+    for (const ClipPlan& clip : plan.clips) {
+        const auto render = find_unmatched_render(clip, deep);
+        ASSERT_TRUE(render.has_value());
+        const animate::FrameRows rows = animate::frame_rows(render->table);
+        media::VideoReader video(render->video);
+        for (int n = 0; n < video.frames(); ++n) {
+            Image picture = video.frame(n);
+            ASSERT_FALSE(picture.deep.empty());
+            const std::vector<float> weights = measured_weights(clip, rows, n, picture);
+            media::LuminancePlane plane = media::luminance_plane(picture, weights);
+            clip.mapped->map.apply(plane);
+            media::set_luminance(plane.y, false, picture);
+            media::ToneCurve(media::Tone{}).apply(picture);
+            auto& [exact, shown] = groups[clip.scene_sha256];
+            exact.push_back(std::move(plane));
+            shown.push_back(media::luminance_plane(picture, weights));
+        }
+    }
+    ASSERT_EQ(groups.size(), 2u);
+    const MappedLuminance& mapped = *plan.clips.front().mapped;
+    Misses exact, shown;
+    for (const auto& [name, of] : groups)
+        for (const auto& [planes, worst] : {std::pair{&of[0], &exact}, std::pair{&of[1], &shown}}) {
+            const Misses one = misses_of(*planes, mapped);
+            worst->histogram = std::max(worst->histogram, one.histogram);
+            worst->amplitude = std::max(worst->amplitude, one.amplitude);
+            worst->worst = std::max(worst->worst, one.worst);
+        }
+    for (const auto& [name, of] : {std::pair{"exact", exact}, std::pair{"shown", shown}})
+        RecordProperty(std::string("misses_of_") + name, std::to_string(of.histogram) + " " +
+                                                             std::to_string(of.amplitude) + " " +
+                                                             std::to_string(of.worst));
+    EXPECT_LT(exact.histogram, 0.001);
+    EXPECT_LT(exact.amplitude, 0.012);
+    EXPECT_LT(exact.worst, 0.02);
+    EXPECT_LT(shown.histogram, 0.003) << "0.0017 is what bytes leave";
+    EXPECT_LT(shown.amplitude, 0.012);
+    EXPECT_LT(shown.worst, 0.02);
 }
 
 TEST_F(LuminanceMaps, GreyFacesHaveNoColourAndTheSameBackground) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Steps of intensity that are equal as they are seen.
+// Steps of intensity that are equal as they are seen, and what of their search is kept.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "cache_setting.h"
 #include "message_of.h"
 #include "paths.h"
 #include "risorius/animate/frame_rows.h"
@@ -136,6 +138,87 @@ TEST(MotionMatch, RefusesAnApexThatTheMovementCannotHave) {
     design["sets"][0]["script"]["events"][0]["onset_s"] = 0.2;
     EXPECT_NE(refusal({{"apex_s", 0.7}}).find("as late as apex_s of match/motion"),
               std::string::npos);
+}
+
+/// What a search finds, and the lines of its progress.
+struct Search {
+    double intensity;
+    std::vector<std::string> told;
+};
+Search search(const std::filesystem::path& design) {
+    Search out{};
+    const BatchPlan plan = plan_batch(
+        design, {.progress = [&](double, const std::string& what) { out.told.push_back(what); },
+                 .stopped = {}});
+    for (const auto& [name, value] : plan.clips.at(0).condition.values)
+        if (name == "intensity") out.intensity = value.get<double>();
+    return out;
+}
+
+std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> out;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) out.push_back(entry.path());
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+TEST(MotionMatch, SearchesOnceAndBelievesNoDamagedOrForeignResult) {
+    const TemporaryFolder results, folder;
+    const CacheSetting own(results.path().string());
+    Json design = steps_design(0.05);
+    design["match"]["motion"]["share"] = {0.5};
+    design["sets"][0]["factors"]["expression"] = {"happiness"};
+    const auto write = [&] { std::ofstream(folder / "design.json") << design.dump(); };
+    write();
+    const Search first = search(folder / "design.json");
+    ASSERT_FALSE(first.told.empty());
+    EXPECT_EQ(first.told[0], "equal motion: /sets/0, expression happiness, seen_step 0.5");
+    const Search second = search(folder / "design.json");
+    EXPECT_TRUE(second.told.empty()) << "nothing is simulated again";
+    EXPECT_EQ(second.intensity, first.intensity);
+
+    // Damaged files are found out, and the search is made anew with the same result.
+    for (const auto& file : files_below(results.path())) {
+        std::string bytes = read_file(file, {"a result", 256 * kMegabyte});
+        bytes[bytes.size() - 3] = static_cast<char>(bytes[bytes.size() - 3] ^ 1);
+        std::ofstream(file, std::ios::binary) << bytes;
+    }
+    const Search third = search(folder / "design.json");
+    EXPECT_EQ(third.told.size(), first.told.size());
+    EXPECT_EQ(third.intensity, first.intensity);
+
+    // So are those of another request in their place.
+    const std::vector<std::filesystem::path> files = files_below(results.path());
+    for (std::size_t i = 0; i + 1 < files.size(); ++i)
+        std::filesystem::copy_file(files[i + 1], files[i],
+                                   std::filesystem::copy_options::overwrite_existing);
+    const Search fourth = search(folder / "design.json");
+    EXPECT_FALSE(fourth.told.empty());
+    EXPECT_EQ(fourth.intensity, first.intensity);
+
+    // Another course is another request.
+    design["sets"][0]["script"]["events"][0]["onset_s"] = 0.15;
+    write();
+    EXPECT_FALSE(search(folder / "design.json").told.empty());
+}
+
+TEST(MotionMatch, GivesTheSameBytesWithAndWithoutKeptResults) {
+    const TemporaryFolder results, folder;
+    Json design = steps_design(0.05);
+    design["match"]["motion"]["share"] = {0.5};
+    design["sets"][0]["factors"]["expression"] = {"happiness"};
+    std::ofstream(folder / "design.json") << design.dump();
+    std::set<std::string> sums;
+    for (const char* out : {"without", "first", "second"}) {
+        const CacheSetting setting(std::string(out) == "without" ? "off" : results.path().string());
+        EXPECT_TRUE(
+            make_batch({.design = folder / "design.json", .out = folder / out, .workers = 1})
+                .complete);
+        sums.insert(read_file(folder / out / "SHA256SUMS", {"a table", kMegabyte}));
+    }
+    EXPECT_EQ(sums.size(), 1u);
+    EXPECT_FALSE(files_below(results.path()).empty());
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ TEST(Norms, KappaIsThatOfFleiss) {
         for (int answer = 0; answer < 5; ++answer)
             for (int i = 0; i < counts[clip][answer]; ++i)
                 ratings.push_back({"", std::to_string(clip), std::to_string(answer), {}});
-    const Norms norms = norms_of(ratings, {});
+    const Norms norms = norms_of(Ratings{ratings, {}}, {});
     ASSERT_TRUE(norms.kappa.has_value());
     EXPECT_NEAR(*norms.kappa, 0.210, 5e-4);
 }
@@ -53,8 +53,8 @@ TEST(Norms, ReliabilityIsThatOfShroutAndFleiss) {
                                {{"valence", scores[target][judge]}}});
     // A judge who leaves a target out does not count
     ratings.push_back({"other", "0", "", {{"valence", 100}}});
-    EXPECT_NEAR(norms_of(ratings, {}).icc.at("valence"), 0.62, 5e-3);
-    EXPECT_EQ(norms_of(ratings, {}).icc.count("arousal"), 0u);
+    EXPECT_NEAR(norms_of(Ratings{ratings, {}}, {}).icc.at("valence"), 0.62, 5e-3);
+    EXPECT_EQ(norms_of(Ratings{ratings, {}}, {}).icc.count("arousal"), 0u);
 }
 
 TEST(Norms, LikingForAnAnswerDoesNotPay) {
@@ -64,11 +64,37 @@ TEST(Norms, LikingForAnAnswerDoesNotPay) {
         ratings.push_back({"", "fear", "fear", {}});
         ratings.push_back({"", "joy", "fear", {}});
     }
-    const Norms norms = norms_of(ratings, {{"fear", "fear"}, {"joy", "joy"}});
+    const Norms norms = norms_of(Ratings{ratings, {}}, {{"fear", "fear"}, {"joy", "joy"}});
     EXPECT_EQ(norms.clips.at("fear").hits.value(), 1);
     EXPECT_NEAR(*norms.unbiased_hit_rate("fear"), 10.0 * 10 / (10 * 20), 1e-12);
     EXPECT_EQ(*norms.unbiased_hit_rate("joy"), 0);
     EXPECT_EQ(norms.confusion_table(), "right\tfear\nfear\t10\njoy\t10\n");
+}
+
+TEST(Norms, CountRedDotsAndLeaveOutPracticeAndCatchTrials) {
+    const TemporaryFolder folder;
+    // As experiment.py writes its rows, and as the page does, which has several rows for a trial
+    std::ofstream(folder / "all.csv")
+        << "participant,kind,task,stim_id,answer,correct,false_alarm\n"
+           "1,practice,,a,fear,0,0\n1,trial,,a,joy,1,0\n1,trial,,b,joy,0,1\n1,catch,,a,,1,0\n"
+           "1,catch,,b,,0,1\n"
+           "2,trial,clip,a,,,0\n2,trial,answer,a,joy,true,\n"
+           "2,catch,clip,a,,false,0\n2,catch,catch,a,,true,\n";
+    const Ratings ratings = read_ratings(folder / "all.csv", {"a", "b"});
+    EXPECT_EQ(ratings.given.size(), 3u);
+    const Norms norms = norms_of(ratings, {{"a", "joy"}, {"b", "fear"}});
+    EXPECT_EQ(norms.clips.at("a").hits.count, 2);
+    EXPECT_EQ(norms.catch_table(),
+              "participant\tcatch_trials\thits\tother_trials\tfalse_alarms\n"
+              "1\t2\t1\t2\t2\n2\t1\t1\t1\t0\n");
+    const Json all = norms.json().at("catch");
+    EXPECT_EQ(all.at("trials"), 3);
+    EXPECT_EQ(all.at("hits"), 2);
+    EXPECT_EQ(all.at("other_trials"), 3);
+    EXPECT_EQ(all.at("false_alarms"), 2);
+    // A table without catch trials says nothing of them
+    std::ofstream(folder / "plain.csv") << "stim_id,answer\na,joy\n";
+    EXPECT_FALSE(norms_of(read_ratings(folder / "plain.csv", {"a"}), {}).json().contains("catch"));
 }
 
 class NormsOfSet : public Batch {};

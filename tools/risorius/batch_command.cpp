@@ -50,7 +50,11 @@ Json balance_json(const std::string& set, const design::Balance& balance) {
 }
 
 void print_plan(const BatchArguments& arguments) {
-    const stimuli::BatchPlan plan = stimuli::plan_batch(arguments.options.design);
+    stimuli::BatchPlan plan;
+    {
+        ProgressBar bar(arguments.common);
+        plan = stimuli::plan_batch(arguments.options.design, bar.monitor());
+    }
     long frames = 0;
     for (const stimuli::ClipPlan& clip : plan.clips) frames += clip.frames;
     if (arguments.list && arguments.common.json) {

@@ -24,7 +24,11 @@ void run(const CheckArguments& arguments) {
     Json report = Json::array();
     int broken = 0;
     for (const std::filesystem::path& file : arguments.files) {
-        const cli::CheckResult result = cli::check_file(file);
+        cli::CheckResult result;
+        {
+            ProgressBar bar(arguments.common);
+            result = cli::check_file(file, bar.monitor());
+        }
         broken += !result.ok();
         if (!result.ok()) std::fprintf(stderr, "risorius: %s\n", result.error.c_str());
         report.push_back(json_object({{"file", file.generic_string()},

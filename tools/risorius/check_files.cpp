@@ -129,7 +129,7 @@ void check_mesh_file(const fs::path& file, CheckResult& result) {
     note_pictures(mesh, result);
 }
 
-void check(CheckResult& result) {
+void check(CheckResult& result, const ProgressMonitor& monitor) {
     if (result.file.extension() != ".json") {
         result.format = "mesh";
         return check_mesh_file(result.file, result);
@@ -140,8 +140,7 @@ void check(CheckResult& result) {
         json.at("format").one_of(std::vector<std::string_view>(formats.begin(), formats.end()));
     result.format = format.substr(std::string("risorius-").size());
     if (result.format == "script") check_script(json, result);
-    if (result.format == "design")
-        result.notes = stimuli::plan_batch(result.file, stop_is_asked).notes;
+    if (result.format == "design") result.notes = stimuli::plan_batch(result.file, monitor).notes;
     if (result.format == "experiment") figures::check_experiment(json);
     if (result.format == "landmarks") check_landmarks(result.file, result);
     if (result.format == "rig") check_rig(result.file, result);
@@ -154,10 +153,10 @@ void check(CheckResult& result) {
 
 }  // namespace
 
-CheckResult check_file(const fs::path& file) {
+CheckResult check_file(const fs::path& file, const ProgressMonitor& monitor) {
     CheckResult result{.file = file, .format = "", .error = "", .notes = {}};
     try {
-        check(result);
+        check(result, monitor);
     } catch (const Error& error) {
         result.error = error.what();
     }

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "risorius/core/progress_monitor.h"
+
 namespace risorius::cli {
 
 struct CheckResult {
@@ -21,6 +23,7 @@ struct CheckResult {
 /// Checks a file: a script with its rig, a rig with its mesh, landmarks against the standard anatomy, a design with all its
 /// conditions, and an experiment with the bodies that it describes. Every JSON file is also checked against the schema of its
 /// format, which its key "format" names. Any other file is checked as a mesh.
-CheckResult check_file(const std::filesystem::path& file);
+/// `monitor`: told of a design that has to be searched.
+CheckResult check_file(const std::filesystem::path& file, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::cli

@@ -46,7 +46,7 @@ void add_coding(CLI::App& command, animate::RenderRequest& options) {
         .add_flag("--lossless", video.lossless,
                   "Keep every pixel exactly: H.264 or VP9 in RGB, or PNG in a transparent .mov")
         ->group(kCoding);
-    command.add_option("--bits", video.bits, "Bits per channel of PNG frames, 8 or 16")
+    command.add_option("--bits", video.bits, "Bits per channel of PNG frames and .mkv, 8 or 16")
         ->type_name("INT")
         ->group(kCoding);
     command

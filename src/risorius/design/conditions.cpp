@@ -110,6 +110,16 @@ void add_sound(const ConditionSet& set, const Parameters& values, Condition& con
     condition.audio_start_s = start.get<double>();
 }
 
+int rounds_of(const MotionMatch& motion) { return !motion.share.empty() && motion.apex_s ? 2 : 1; }
+
+/// ", expression happiness, seen_step 0.25": the levels of a condition, for messages.
+std::string levels_text(const ConditionSet& set, const Parameters& values) {
+    std::string out;
+    for (const Factor& factor : set.factors)
+        out += ", " + factor.name + " " + readable_text(values.text(factor.name));
+    return out;
+}
+
 /// The values of the parameters of match/motion in a condition; 1 and the time of the apex when nothing can find them. What is seen at
 /// the apex and when it is there depend on one another a little, so that they are found twice.
 std::vector<Given> matched_motion(const Design& design, const ConditionSet& set,
@@ -141,13 +151,13 @@ std::vector<Given> matched_motion(const Design& design, const ConditionSet& set,
             return script;
         };
     };
-    for (int round = 0; round < (steps && motion.apex_s ? 2 : 1); ++round) {
+    const std::string place = set.place + levels_text(set, all());
+    for (int round = 0; round < rounds_of(motion); ++round) {
         if (steps)
             intensity = search.intensity(all().at(kSeenStep).get<double>(), script_with(intensity),
-                                         set.script.folder(), set.place);
+                                         set.script.folder(), place);
         if (motion.apex_s)
-            time_s =
-                search.time_s(*motion.apex_s, script_with(time_s), set.script.folder(), set.place);
+            time_s = search.time_s(*motion.apex_s, script_with(time_s), set.script.folder(), place);
     }
     return found();
 }
@@ -304,6 +314,19 @@ std::string clip_word(const std::string& text) {
         }
     }
     return out;
+}
+
+long motion_searches(const Design& design) {
+    if (!design.match.motion) return 0;
+    const MotionMatch& motion = *design.match.motion;
+    long sets = 0;
+    for (const ConditionSet& set : design.sets) {
+        const auto lower = std::count_if(
+            set.controls.begin(), set.controls.end(),
+            [](const Control& control) { return control.kind == ControlKind::kChimeric; });
+        sets += static_cast<long>(wanted_conditions(set, design.seed).size()) * (1 + lower);
+    }
+    return sets * rounds_of(motion) * ((motion.share.empty() ? 0 : 1) + (motion.apex_s ? 1 : 0));
 }
 
 std::vector<Condition> conditions_of(const Design& design, const MotionSearch& search) {

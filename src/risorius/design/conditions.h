@@ -51,6 +51,9 @@ struct MotionSearch {
     Find time_s;     ///< for the time of the apex, s
 };
 
+/// How often conditions_of() asks for a value of match/motion, for the progress.
+long motion_searches(const Design& design);
+
 /// Returns all clips of a design. `search`: needed when the design matches motion. Throws Error for names that are invalid or not unique,
 /// for unknown parameters and for too many conditions.
 std::vector<Condition> conditions_of(const Design& design, const MotionSearch& search = {});

@@ -272,21 +272,21 @@ void read_course(const JsonCursor& json, ExperimentOptions& out) {
     if (const auto v = json.find("practice")) out.practice = v->integer(0, 1000);
     if (const auto v = json.find("catch")) out.catch_share = v->number({0, 0.5});
     const auto method = json.find("method");
-    const std::string name =
-        method ? method->one_of({"constant", "staircase", "quest"}) : std::string("constant");
-    if (name == "constant") {
+    using Method = ExperimentOptions::Method;
+    if (method)
+        out.method =
+            static_cast<Method>(index_of_name(method->place(), method->string(), method_names()));
+    if (out.method == Method::kConstant) {
         for (const char* key : {"over", "series_by", "trials"})
             if (const auto v = json.find(key))
-                v->fail("none without \"method\": \"staircase\" or \"quest\"");
+                v->fail("none without a \"method\" that chooses its clips");
         return;
     }
-    out.method =
-        name == "quest" ? ExperimentOptions::Method::kQuest : ExperimentOptions::Method::kStaircase;
     if (!out.correct)
         method->fail("\"correct\" beside it, the parameter of the right answer", "none");
     for (const std::string& program : out.programs)
-        if (program == "jspsych")
-            method->fail("\"constant\" for jspsych, whose order is fixed before the first trial");
+        if (program == "jspsych" && out.method != Method::kQuestPlus)
+            method->fail("\"constant\" or \"questplus\" for jspsych, which has no other method");
     if (const auto v = json.find("repetitions"))
         v->fail("none beside a method that chooses its clips; \"trials\" says how many");
     out.series_by = {*out.correct};
@@ -366,6 +366,11 @@ void check_experiment(const JsonCursor& json, const Design& design) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& method_names() {
+    static const std::vector<std::string> kNames{"constant", "staircase", "quest", "questplus"};
+    return kNames;
+}
 
 const std::vector<std::string>& rating_scales() {
     static const std::vector<std::string> kNames{"valence", "arousal", "intensity", "naturalness"};

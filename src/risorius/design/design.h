@@ -124,9 +124,9 @@ struct ExperimentOptions {
     int blocks = 1;              ///< with a pause between two of them
     int practice = 0;  ///< trials before the first block, which tell whether an answer is right
     double catch_share = 0;  ///< trials with a dot to be reported / trials, [0, 0.5]
-    /// Which clip comes next. Constant: all, in random order. Staircase and QUEST: the one whose level is nearest to where the
+    /// Which clip comes next. Constant: all, in random order. Staircase, QUEST and QUEST+: the one whose level is nearest to where the
     /// participant's threshold is looked for.
-    enum class Method { kConstant, kStaircase, kQuest } method = Method::kConstant;
+    enum class Method { kConstant, kStaircase, kQuest, kQuestPlus } method = Method::kConstant;
     std::string over = "seen_share";     ///< the level: "seen_share", or a parameter with numbers
     std::vector<std::string> series_by;  ///< parameters; each combination of values has a threshold
     int trials = 40;                     ///< of each threshold
@@ -135,6 +135,9 @@ struct ExperimentOptions {
     /// Packages of jsPsych: a URL or a folder
     std::string jspsych_from = "https://cdn.jsdelivr.net/npm";
 };
+
+/// The names of ExperimentOptions::Method in design files, in their order.
+const std::vector<std::string>& method_names();
 
 /// The scales of ratings: "valence", "arousal", "intensity", "naturalness".
 const std::vector<std::string>& rating_scales();

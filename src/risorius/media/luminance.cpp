@@ -7,6 +7,8 @@
 #include <cstring>
 #include <limits>
 
+#include "risorius/media/detail/srgb_light.h"
+
 namespace risorius::media {
 
 namespace {
@@ -45,6 +47,25 @@ const std::array<double, 256>& opacity_of_byte() {
 double relative_luminance(const std::uint8_t* rgb) {
     const std::array<Table, 3>& of = luminance_of_byte();
     return of[0][rgb[0]] + of[1][rgb[1]] + of[2][rgb[2]];
+}
+
+double light_of(const Image& image, std::size_t pixel, std::size_t channel) {
+    const std::size_t at = 4 * pixel + channel;
+    if (!image.deep.empty()) return detail::light_of_deep_srgb(image.deep[at]);
+    return luminance_of_byte()[0][image.rgba[at]] / kFraction[0];
+}
+
+double relative_luminance(const Image& image, std::size_t pixel) {
+    if (image.deep.empty()) return relative_luminance(&image.rgba[4 * pixel]);
+    double y = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+        y += kFraction[k] * detail::light_of_deep_srgb(image.deep[4 * pixel + k]);
+    return y;
+}
+
+double opacity_of(const Image& image, std::size_t pixel) {
+    return image.deep.empty() ? image.rgba[4 * pixel + 3] / 255.0
+                              : image.deep[4 * pixel + 3] / 65535.0;
 }
 
 double mean_luminance(const Image& image, const std::vector<std::uint16_t>& mask) {

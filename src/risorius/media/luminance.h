@@ -44,4 +44,9 @@ double mean_luminance(const Image& image, const std::vector<std::uint16_t>& mask
 /// Returns Y of an sRGB pixel.
 double relative_luminance(const std::uint8_t* rgb);
 
+/// Returns Y, the linear light of a channel, and the opacity of a pixel of a picture, 0..1: from its 16 bits where it has them.
+double relative_luminance(const Image& image, std::size_t pixel);
+double light_of(const Image& image, std::size_t pixel, std::size_t channel);
+double opacity_of(const Image& image, std::size_t pixel);
+
 }  // namespace risorius::media

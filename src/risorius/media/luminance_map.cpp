@@ -40,6 +40,12 @@ cv::Mat spectrum_of(const LuminancePlane& plane, double mean) {
     return out;
 }
 
+void set_light(double light, std::size_t pixel, std::size_t channel, Image& image) {
+    const std::size_t at = 4 * pixel + channel;
+    image.rgba[at] = detail::srgb_of_light(light);
+    if (!image.deep.empty()) image.deep[at] = detail::deep_srgb_of_light(light);
+}
+
 /// T(F(y)), where `from` is the inverse of F.
 double curve(const std::vector<double>& from, const std::vector<double>& to, double y) {
     const auto above = std::upper_bound(from.begin(), from.end(), y);
@@ -55,8 +61,8 @@ double curve(const std::vector<double>& from, const std::vector<double>& to, dou
 LuminancePlane luminance_plane(const Image& image, std::vector<float> weights) {
     LuminancePlane out{image.width_px, image.height_px, {}, std::move(weights)};
     out.y.reserve(image.rgba.size() / 4);
-    for (std::size_t i = 0; i < image.rgba.size(); i += 4)
-        out.y.push_back(static_cast<float>(relative_luminance(&image.rgba[i])));
+    for (std::size_t i = 0; i < image.rgba.size() / 4; ++i)
+        out.y.push_back(static_cast<float>(relative_luminance(image, i)));
     return out;
 }
 
@@ -208,28 +214,28 @@ void LuminanceMap::apply(LuminancePlane& plane) const {
 }
 
 void set_luminance(const std::vector<float>& y, bool grey, Image& image) {
-    image.deep.clear();
     for (std::size_t i = 0; i < y.size(); ++i) {
         const double wanted = std::clamp(static_cast<double>(y[i]), 0.0, 1.0);
         std::array<double, 3> light{wanted, wanted, wanted};
-        if (const double now = relative_luminance(&image.rgba[4 * i]); !grey && now > 0) {
+        if (const double now = relative_luminance(image, i); !grey && now > 0) {
             double most = 0;
             for (std::size_t k = 0; k < 3; ++k) {
-                light[k] = detail::light_of_srgb(image.rgba[4 * i + k]) * wanted / now;
+                light[k] = light_of(image, i, k) * wanted / now;
                 most = std::max(most, light[k]);
             }
             if (most > 1)
                 for (double& one : light)
                     one = wanted + (one - wanted) * (1 - wanted) / (most - wanted);
         }
-        for (std::size_t k = 0; k < 3; ++k) image.rgba[4 * i + k] = detail::srgb_of_light(light[k]);
+        for (std::size_t k = 0; k < 3; ++k) set_light(light[k], i, k, image);
     }
 }
 
 void make_grey(Image& image) {
-    image.deep.clear();
-    for (std::size_t i = 0; i < image.rgba.size(); i += 4)
-        std::fill_n(&image.rgba[i], 3, detail::srgb_of_light(relative_luminance(&image.rgba[i])));
+    for (std::size_t i = 0; i < image.rgba.size() / 4; ++i) {
+        const double light = relative_luminance(image, i);
+        for (std::size_t k = 0; k < 3; ++k) set_light(light, i, k, image);
+    }
 }
 
 }  // namespace risorius::media

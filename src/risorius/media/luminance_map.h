@@ -81,7 +81,8 @@ class LuminanceMap {
     std::vector<Round> rounds_;
 };
 
-/// Gives a picture this luminance. Hues stay; what would exceed 1 moves towards grey of the same luminance. `grey`: all of it.
+/// Gives a picture this luminance, with 16 bits where it has them. Hues stay; what would exceed 1 moves towards grey of the same
+/// luminance. `grey`: all of it.
 void set_luminance(const std::vector<float>& y, bool grey, Image& image);
 /// Takes the colour off, luminance stays.
 void make_grey(Image& image);

@@ -14,46 +14,61 @@ namespace risorius::media {
 
 namespace {
 
+constexpr double kNotCut = 1e-12;  // of rounding
+
 double linear_of(int byte) { return detail::light_of_srgb(byte); }
 std::uint8_t byte_of(double light) { return detail::srgb_of_light(light); }
 
 }  // namespace
 
-ToneCurve::ToneCurve(const Tone& tone) {
+ToneCurve::ToneCurve(const Tone& tone) : tone_(tone) {
     for (int i = 0; i < 256; ++i) {
         const double light = tone.gain * linear_of(i) + tone.offset;
         const auto at = static_cast<std::size_t>(i);
         light_[at] = std::clamp(light, 0.0, 1.0);
         byte_[at] = byte_of(std::clamp(light, 0.0, 1.0));
         // Values that still round to the last byte do not count as clipped.
-        is_cut_[at] = light < linear_of(0) - 1e-12 || light > linear_of(255) + 1e-12;
+        is_cut_[at] = light < -kNotCut || light > 1 + kNotCut;
     }
+}
+
+double ToneCurve::light_after(const Image& image, std::size_t pixel, std::size_t channel) const {
+    if (image.deep.empty()) return light_[image.rgba[4 * pixel + channel]];
+    return std::clamp(tone_.gain * light_of(image, pixel, channel) + tone_.offset, 0.0, 1.0);
+}
+
+bool ToneCurve::is_cut(const Image& image, std::size_t pixel, std::size_t channel) const {
+    if (image.deep.empty()) return is_cut_[image.rgba[4 * pixel + channel]];
+    const double light = tone_.gain * light_of(image, pixel, channel) + tone_.offset;
+    return light < -kNotCut || light > 1 + kNotCut;
 }
 
 void ToneCurve::apply(Image& image) const {
+    for (std::size_t i = 0; i < image.rgba.size() / 4; ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::uint8_t& byte = image.rgba[4 * i + k];
+            byte = image.deep.empty() ? byte_[byte] : byte_of(light_after(image, i, k));
+        }
     image.deep.clear();
-    for (std::size_t i = 0; i < image.rgba.size(); ++i)
-        if (i % 4 != 3) image.rgba[i] = byte_[image.rgba[i]];
 }
 
 void ToneCurve::apply_over(const std::array<std::uint8_t, 3>& background, Image& image) const {
-    image.deep.clear();
     const std::array<double, 3> behind{linear_of(background[0]), linear_of(background[1]),
                                        linear_of(background[2])};
-    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
-        const std::uint8_t opacity = image.rgba[i + 3];
-        const double share = opacity / 255.0;
+    for (std::size_t i = 0; i < image.rgba.size() / 4; ++i) {
+        const double share = opacity_of(image, i);
         for (std::size_t k = 0; k < 3; ++k) {
-            std::uint8_t& byte = image.rgba[i + k];
-            if (opacity == 255)
+            std::uint8_t& byte = image.rgba[4 * i + k];
+            if (share == 1 && image.deep.empty())
                 byte = byte_[byte];
-            else if (opacity == 0)
+            else if (share == 0)
                 byte = background[k];
             else
-                byte = byte_of(share * light_[byte] + (1 - share) * behind[k]);
+                byte = byte_of(share * light_after(image, i, k) + (1 - share) * behind[k]);
         }
-        image.rgba[i + 3] = 255;
+        image.rgba[4 * i + 3] = 255;
     }
+    image.deep.clear();
 }
 
 double ToneCurve::cut_off(const Image& image, const std::vector<float>& weights) const {
@@ -63,7 +78,7 @@ double ToneCurve::cut_off(const Image& image, const std::vector<float>& weights)
         if (!(weight > 0)) continue;
         all += 3 * weight;
         for (std::size_t k = 0; k < 3; ++k)
-            if (is_cut_[image.rgba[4 * i + k]]) cut += weight;
+            if (is_cut(image, i, k)) cut += weight;
     }
     return all > 0 ? cut / all : 0.0;
 }
@@ -72,9 +87,8 @@ double ToneCurve::cut_off(const Image& image, const std::vector<std::uint16_t>& 
     std::size_t cut = 0, all = 0;
     for (std::size_t i = 0; i < image.rgba.size() / 4; ++i) {
         if (!mask.empty() && mask[i] == 0) continue;
-        const std::uint8_t* pixel = &image.rgba[4 * i];
         all += 3;
-        for (int k = 0; k < 3; ++k) cut += is_cut_[pixel[k]] ? 1 : 0;
+        for (std::size_t k = 0; k < 3; ++k) cut += is_cut(image, i, k) ? 1 : 0;
     }
     return all > 0 ? static_cast<double>(cut) / static_cast<double>(all) : 0.0;
 }
@@ -82,8 +96,7 @@ double ToneCurve::cut_off(const Image& image, const std::vector<std::uint16_t>& 
 void LuminanceSums::add(const Image& image, const std::vector<std::uint16_t>& mask) {
     for (std::size_t i = 0; i < image.rgba.size() / 4; ++i) {
         if (!mask.empty() && mask[i] == 0) continue;
-        const std::uint8_t* pixel = &image.rgba[4 * i];
-        const double opacity = pixel[3] / 255.0, y = relative_luminance(pixel);
+        const double opacity = opacity_of(image, i), y = relative_luminance(image, i);
         weight += opacity;
         sum += opacity * y;
         squares += opacity * y * y;
@@ -94,7 +107,7 @@ void LuminanceSums::add(const Image& image, const std::vector<float>& weights) {
     for (std::size_t i = 0; i < weights.size(); ++i) {
         const auto w = static_cast<double>(weights[i]);
         if (!(w > 0)) continue;
-        const double y = relative_luminance(&image.rgba[4 * i]);
+        const double y = relative_luminance(image, i);
         weight += w;
         sum += w * y;
         squares += w * y * y;
@@ -128,11 +141,6 @@ constexpr double kLeastUncut = 0.2;
 }  // namespace
 
 void ColourSums::add(const Image& image, const std::vector<float>& weights) {
-    static const std::array<double, 256> kLight = [] {
-        std::array<double, 256> out{};
-        for (int i = 0; i < 256; ++i) out[static_cast<std::size_t>(i)] = linear_of(i);
-        return out;
-    }();
     for (std::size_t i = 0; i < weights.size(); ++i) {
         const auto w = static_cast<double>(weights[i]);
         if (!(w > 0)) continue;
@@ -142,8 +150,9 @@ void ColourSums::add(const Image& image, const std::vector<float>& weights) {
         cell.weight += w;
         double y = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            cell.light[k] += w * kLight[pixel[k]];
-            y += detail::kLuma[k] * kLight[pixel[k]];
+            const double light = light_of(image, i, k);
+            cell.light[k] += w * light;
+            y += detail::kLuma[k] * light;
         }
         cell.squares += w * y * y;
     }

@@ -7,6 +7,8 @@
 /// The linear light c of every channel becomes gain * c + offset, clamped to 0..1. So Y becomes gain * Y + offset, and hues are
 /// kept. The result depends only on the bytes of the picture.
 ///
+/// Pictures with 16 bits (Image::deep) are measured and mapped by them, and only the result is rounded to bytes.
+///
 /// A picture with a transparent background is measured by weights: those of its pixels, times opacity. Its background is never
 /// mapped.
 #pragma once
@@ -28,7 +30,7 @@ struct Tone {
     bool changes() const { return gain != 1 || offset != 0; }
 };
 
-/// A tone as a table over the 256 values of a byte.
+/// A tone, with a table over the 256 values of a byte. Mapped pictures have bytes only.
 class ToneCurve {
   public:
     explicit ToneCurve(const Tone& tone);
@@ -44,6 +46,10 @@ class ToneCurve {
     double cut_off(const Image& image, const std::vector<float>& weights) const;
 
   private:
+    double light_after(const Image& image, std::size_t pixel, std::size_t channel) const;
+    bool is_cut(const Image& image, std::size_t pixel, std::size_t channel) const;
+
+    Tone tone_;
     std::array<std::uint8_t, 256> byte_{};
     std::array<bool, 256> is_cut_{};
     std::array<double, 256> light_{};

@@ -133,7 +133,7 @@ bool VideoReader::Impl::decode() {
 
 Image VideoReader::Impl::convert() const {
     const auto format_in = static_cast<AVPixelFormat>(picture->format);
-    if (is_rgb_of_bytes(format_in)) return rgb_pixels_of(*picture);
+    if (is_rgb_of_whole_bytes(format_in)) return rgb_pixels_of(*picture);
     Image image(picture->width, picture->height);
     const int flags =
         SWS_BICUBIC | SWS_FULL_CHR_H_INT | SWS_FULL_CHR_H_INP | SWS_ACCURATE_RND | SWS_BITEXACT;

@@ -28,7 +28,7 @@ class VideoReader {
     /// frames()).
     double time_s(int frame) const;
 
-    /// Returns the pixels of a frame. YUV is converted with the matrix and range that the file names. Reading frames in ascending
+    /// Returns the pixels of a frame; of RGB with 16 bits also as Image::deep. YUV is converted with the matrix and range that the file names. Reading frames in ascending
     /// order is fastest.
     Image frame(int frame);
 

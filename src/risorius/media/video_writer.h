@@ -4,7 +4,7 @@
 ///
 ///   .mp4    H.264; lossless: H.264 in RGB            AAC
 ///   .mov    H.264; lossless: H.264 in RGB            PCM     with transparency ProRes 4444; lossless: PNG
-///   .mkv    FFV1, always lossless                    PCM     transparency too
+///   .mkv    FFV1, always lossless, 8 or 16 bits      PCM     transparency too
 ///   .webm   VP9; lossless: VP9 in RGB                Opus    transparency too, not lossless
 ///   frames/ PNG, 8 or 16 bits                        none    transparency too
 ///
@@ -39,7 +39,7 @@ struct VideoOptions {
     bool lossless = false;
     /// All frames are the same picture. In H.264 every frame then decodes to the same bytes as the first one.
     bool still = false;
-    std::optional<int> bits = {};  ///< of PNG frames, 8 or 16
+    std::optional<int> bits = {};  ///< per channel of PNG frames and in .mkv, 8 or 16; default: 8
     bool alpha = false;            ///< frames may be transparent even if the first one is not
     /// The sound of the video. It is cut, or extended with silence, to the length of the video.
     std::shared_ptr<const Recording> sound = {};

@@ -17,6 +17,7 @@
 #include "risorius/core/parallel.h"
 #include "risorius/design/conditions.h"
 #include "risorius/report/stopwatch.h"
+#include "risorius/stimuli/detail/clip_checks.h"
 #include "risorius/stimuli/detail/experiment_files.h"
 #include "risorius/stimuli/detail/luminance_maps.h"
 #include "risorius/stimuli/detail/luminance_match.h"
@@ -33,6 +34,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMostPlanners = 8;
+constexpr double kSearchFraction = 0.3;  // of the progress, when match/motion has to be searched
 constexpr double kScene_s = 2;  // estimated time on two cores to build face, scene and view
 
 /// Calls make(i, session) for all i < count, with one thread per worker. Each worker has its own session.
@@ -67,6 +69,8 @@ std::vector<ClipPlan> plan_clips(std::vector<design::Condition> conditions,
                                    [](const auto& one) { return one.audio.has_value(); });
     std::vector<ClipPlan> out(conditions.size());
     SoundPlans sounds;
+    ClipChecks checks;
+    const PlanShared shared{design, inputs, sounds, checks};
     std::atomic<std::size_t> next{0};
     std::exception_ptr failure;
     std::size_t failed = conditions.size();
@@ -74,7 +78,7 @@ std::vector<ClipPlan> plan_clips(std::vector<design::Condition> conditions,
     const auto work = [&] {
         for (std::size_t i; (i = next++) < conditions.size();) try {
                 const double lead = lead_s.at(conditions[i].set);
-                out[i] = plan_clip(std::move(conditions[i]), lead, design, inputs, sounds);
+                out[i] = plan_clip(std::move(conditions[i]), lead, shared);
                 if (conditions.size() > kClipsPerFolder) out[i].folder = folder_of_clips(i);
             } catch (...) {
                 const std::lock_guard lock(mutex);
@@ -152,10 +156,11 @@ double BatchPlan::megabytes() const {
     return sum;
 }
 
-BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped) {
+BatchPlan plan_batch(const fs::path& file, const ProgressMonitor& monitor) {
     const design::Design design = design::read_design(file);
     BatchPlan plan;
     plan.name = design.name;
+    plan.design = file;
     plan.match = design.match;
     plan.experiment = design.experiment;
     plan.triggers = design.triggers;
@@ -166,8 +171,9 @@ BatchPlan plan_batch(const fs::path& file, const std::function<bool()>& stopped)
     for (const design::ConditionSet& set : design.sets)
         if (!set.fraction.empty() || set.draw)
             plan.balances.emplace_back(set.name, design::balance_of(set, design.seed));
-    plan.inputs = std::make_shared<animate::RenderInputs>(stopped);
-    MotionMatch motion(design.clips.quality, *plan.inputs, {.progress = {}, .stopped = stopped});
+    plan.inputs = std::make_shared<animate::RenderInputs>(monitor.stopped);
+    MotionMatch motion(design.clips.quality, *plan.inputs, design::motion_searches(design),
+                       monitor);
     const design::MotionSearch search{
         [&](double share, const design::MotionSearch::Script& script_at, const fs::path& folder,
             const std::string& place) {
@@ -204,6 +210,7 @@ Json BatchReport::json() const {
                         {"unmeasured", unmeasured},
                         {"failed", list},
                         {"changed", changed},
+                        {"notes", notes},
                         {"complete", complete},
                         {"seconds", seconds}});
 }
@@ -321,12 +328,21 @@ std::vector<std::string> write_set_after_others(const BatchPlan& plan, const Bat
 
 BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monitor) {
     const report::Stopwatch time;
-    BatchPlan plan = plan_batch(options.design, monitor.stopped);
+    bool searched = false;
+    ProgressMonitor planning = monitor.subrange(0, kSearchFraction);
+    if (planning.progress)
+        planning.progress = [&, tell = planning.progress](double fraction,
+                                                          const std::string& what) {
+            searched = true;
+            tell(fraction, what);
+        };
+    BatchPlan plan = plan_batch(options.design, planning);
+    const ProgressMonitor making = searched ? monitor.subrange(kSearchFraction, 1) : monitor;
     check_own_folder(options.out);
     if (!options.norms.empty()) read_ratings(options.norms, clip_names(plan));
     BatchReport report;
     report.name = plan.name;
-    BatchRun run(options, monitor, *plan.inputs, report);
+    BatchRun run(options, making, *plan.inputs, report);
     // Two runs may share a folder, but not a clip.
     OutputSet claims(options.out, OutputSet::Then::kRunGoesOn);
     claims.claim(run.names_of(plan));
@@ -344,9 +360,7 @@ BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monit
             report.seconds = time.seconds();
             return report;
         }
-        const auto before = static_cast<std::ptrdiff_t>(plan.notes.size());
         match_luminance(options.out, plan);
-        report.notes.assign(plan.notes.begin() + before, plan.notes.end());
     }
 
     // Find the clips that exist already.
@@ -367,10 +381,11 @@ BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monit
 
     // Write the files of the whole set.
     if (report.failed.empty() && report.elsewhere == 0) {
-        monitor.report(1, "the files of the set");
-        report.changed = write_set_after_others(plan, options, monitor);
+        making.report(1, "the files of the set");
+        report.changed = write_set_after_others(plan, options, making);
         report.complete = true;
     }
+    report.notes = plan.notes;
     report.seconds = time.seconds();
     return report;
 }

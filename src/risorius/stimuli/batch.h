@@ -37,6 +37,7 @@ struct BatchOptions {
 /// A design that has been read and checked.
 struct BatchPlan {
     std::string name;
+    std::filesystem::path design;  ///< its file
     /// What was drawn at random for reverse correlation, by set
     std::vector<std::pair<std::string, design::SampleBalance>> samples;
     design::Match match;
@@ -54,14 +55,17 @@ struct BatchPlan {
     std::shared_ptr<animate::RenderInputs> inputs;
     double seconds() const;    ///< estimated time to make all clips on two cores
     double megabytes() const;  ///< estimated
+    /// Names a key of the design in messages: "mine/design.json:/experiment/over".
+    std::string place(const std::string& key) const { return design.string() + ":/" + key; }
 };
 
 /// Returns the names of the clips, in the order of the plan.
 std::vector<std::string> clip_names(const BatchPlan& plan);
 
-/// Reads the design, crosses its factors and checks every clip. Renders nothing. Throws Error for a wrong design.
-BatchPlan plan_batch(const std::filesystem::path& design,
-                     const std::function<bool()>& stopped = {});
+/// Reads the design, crosses its factors and checks every clip. Renders nothing, but a design that matches motion is searched, which
+/// takes some seconds for each condition when nothing is known from an earlier run. Only then the monitor is told. Throws Error for a
+/// wrong design.
+BatchPlan plan_batch(const std::filesystem::path& design, const ProgressMonitor& monitor = {});
 
 /// The result of make_batch(): numbers of clips and conditions.
 struct BatchReport {
@@ -72,7 +76,7 @@ struct BatchReport {
     int unmeasured = 0;
     std::vector<std::pair<std::string, std::string>> failed;  ///< name of the clip and reason
     bool complete = false;           ///< all clips and the files of the set exist
-    std::vector<std::string> notes;  ///< that came up while the clips were made
+    std::vector<std::string> notes;  ///< of the plan, and what came up while the clips were made
     /// Files of the set that somebody has changed. They stay, and the new ones are beside them, as NAME.new
     std::vector<std::string> changed;
     double seconds = 0;

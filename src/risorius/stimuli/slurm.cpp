@@ -183,7 +183,7 @@ class Rounds {
 BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& slurm,
                                 const ProgressMonitor& monitor) {
     const report::Stopwatch time;
-    BatchPlan plan = plan_batch(batch.design, monitor.stopped);
+    BatchPlan plan = plan_batch(batch.design, monitor);
     check_own_folder(batch.out);
     BatchReport report;
     report.name = plan.name;

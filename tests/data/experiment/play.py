@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Plays the page of an experiment in a headless browser as a participant would, and keeps the data it sends.
 
-    play.py ROOT PAGE DATA BROWSER... [--dead-save]
+    play.py ROOT PAGE DATA BROWSER... [--dead-save] [--run=2]
 
 ROOT is served on the loopback, PAGE is the page below it, DATA the file for what the page posts. Keys are pressed where it
 waits for one: "a" for every answer, the space bar for a red dot. A form of ratings gets the third choice of each question.
@@ -19,11 +19,12 @@ import tempfile
 import threading
 
 dead = "--dead-save" in sys.argv
-root, page, data, *browser = [one for one in sys.argv[1:] if one != "--dead-save"]
+run = "".join(f"&run={one[6:]}" for one in sys.argv if one.startswith("--run="))
+root, page, data, *browser = [one for one in sys.argv[1:] if one != "--dead-save" and not one.startswith("--run=")]
 posted = threading.Event()
 
 PARTICIPANT = """<!doctype html><title>participant</title>
-<iframe id="experiment" src="/PAGE?save=/SAVE&seed=1&participant=7" width="900" height="700" allow="autoplay"></iframe>
+<iframe id="experiment" src="/PAGE?save=/SAVE&seed=1&participant=7RUN" width="900" height="700" allow="autoplay"></iframe>
 <script>
 const experiment = document.getElementById('experiment');
 const kept = () => new Promise((resolve) => {
@@ -72,7 +73,7 @@ document.getElementById('experiment').addEventListener('load', (event) => {
         fetch('/data', {method: 'POST', body: 'error: ' + error.message}));
 });
 </script>
-""".replace("PAGE", page).replace("SAVE", "nowhere" if dead else "data")
+""".replace("PAGE", page).replace("SAVE", "nowhere" if dead else "data").replace("RUN", run)
 
 
 class Server(http.server.SimpleHTTPRequestHandler):
@@ -103,7 +104,7 @@ class Server(http.server.SimpleHTTPRequestHandler):
 server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Server, directory=root))
 threading.Thread(target=server.serve_forever, daemon=True).start()
 with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
-    run = subprocess.Popen(
+    browsing = subprocess.Popen(
         [
             *browser, "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--mute-audio",
             "--autoplay-policy=no-user-gesture-required", f"--user-data-dir={profile}",
@@ -112,6 +113,6 @@ with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
     )
     came = posted.wait(120)
-    run.terminate()
-    run.wait()
+    browsing.terminate()
+    browsing.wait()
 sys.exit(0 if came else "nothing was posted")

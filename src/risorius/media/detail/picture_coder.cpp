@@ -105,7 +105,10 @@ PictureCoder::PictureCoder(std::string name, Coding coding, const VideoOptions& 
             describe_rgb();
             break;
         case Coding::kFfv1:
-            codec_->pix_fmt = alpha ? AV_PIX_FMT_BGRA : AV_PIX_FMT_0RGB32;
+            if (options.bits.value_or(8) == 16)
+                codec_->pix_fmt = alpha ? AV_PIX_FMT_GBRAP16 : AV_PIX_FMT_GBRP16;
+            else
+                codec_->pix_fmt = alpha ? AV_PIX_FMT_BGRA : AV_PIX_FMT_0RGB32;
             describe_rgb();
             codec_->gop_size = 1;  // every frame is coded by itself
             codec_->level = 3;

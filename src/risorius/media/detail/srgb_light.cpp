@@ -3,17 +3,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace risorius::media::detail {
 
-double light_of_srgb(int byte) {
-    const double v = byte / 255.0;
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+namespace {
+
+/// sRGB of linear light, 0..1.
+double encoded(double light) {
+    const double v = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+    return std::clamp(v, 0.0, 1.0);
+}
+
+double decoded(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
+
+}  // namespace
+
+double light_of_srgb(int byte) { return decoded(byte / 255.0); }
+
+double light_of_deep_srgb(std::uint16_t value) {
+    static const std::vector<double> table = [] {
+        std::vector<double> out;
+        for (int i = 0; i < 65536; ++i) out.push_back(decoded(i / 65535.0));
+        return out;
+    }();
+    return table[value];
 }
 
 std::uint8_t srgb_of_light(double light) {
-    const double v = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(v, 0.0, 1.0)));
+    return static_cast<std::uint8_t>(std::lround(255 * encoded(light)));
+}
+
+std::uint16_t deep_srgb_of_light(double light) {
+    return static_cast<std::uint16_t>(std::lround(65535 * encoded(light)));
 }
 
 }  // namespace risorius::media::detail

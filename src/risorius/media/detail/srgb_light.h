@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Bytes of sRGB and linear light, IEC 61966-2-1.
+/// Values of sRGB with 8 and 16 bits and linear light, IEC 61966-2-1.
 #pragma once
 
 #include <array>
@@ -14,7 +14,12 @@ inline constexpr std::array kLuma{0.2126, 0.7152, 0.0722};
 /// Linear light of a byte, 0..1.
 double light_of_srgb(int byte);
 
+/// Linear light of a value of 16 bits, 0..1.
+double light_of_deep_srgb(std::uint16_t value);
+
 /// The byte of a linear light, which is clamped to 0..1.
 std::uint8_t srgb_of_light(double light);
+/// The same with 16 bits.
+std::uint16_t deep_srgb_of_light(double light);
 
 }  // namespace risorius::media::detail

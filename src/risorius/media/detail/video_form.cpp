@@ -85,8 +85,9 @@ void check_quality(const std::string& place, Form form, const VideoOptions& opti
                     100000);
     }
     if (options.bits) {
-        if (form != Form::kFolder)
-            throw Error(place, "a folder of PNG frames (frames/), whose bits can be chosen", found);
+        if (form != Form::kFolder && form != Form::kMatroska)
+            throw Error(place, "a folder of PNG frames (frames/) or .mkv, whose bits can be chosen",
+                        found);
         if (*options.bits != 8 && *options.bits != 16)
             throw Error(place, "8 or 16 bits per channel", std::to_string(*options.bits));
     }

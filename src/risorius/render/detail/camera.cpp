@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "risorius/core/error.h"
+#include "risorius/render/framing.h"
 #include "risorius/render/offscreen_view.h"
 
 namespace risorius::render {
@@ -196,6 +197,21 @@ std::vector<Mat4> lens_views(const Camera& camera, const std::map<std::string, V
         views.push_back(camera.clip_from_world * shear);
     }
     return views;
+}
+
+Framing::Framing(const std::map<std::string, Vec3>& landmarks, const Vec3& min, const Vec3& max,
+                 const ViewOptions& options)
+    : clip_from_world_(make_camera(options.camera, landmarks, min, max,
+                                   static_cast<double>(options.width_px) / options.height_px,
+                                   options.lens)
+                           .clip_from_world),
+      width_px_(options.width_px),
+      height_px_(options.height_px) {}
+
+Vec2 Framing::project(const Vec3& world) const {
+    const Eigen::Vector4d clip = clip_from_world_ * world.homogeneous();
+    return {(clip.x() / clip.w() * 0.5 + 0.5) * width_px_,
+            (0.5 - clip.y() / clip.w() * 0.5) * height_px_};
 }
 
 }  // namespace risorius::render

@@ -161,6 +161,61 @@ void add_norms(const BatchPlan& plan, const Norms& norms, std::vector<Column>& c
     }
 }
 
+/// The columns for what is seen to move in the halves of chimeric clips.
+void add_halves(const std::vector<Json>& records, std::vector<Column>& columns) {
+    for (const char* half : {"upper", "lower"}) {
+        const auto measure = [&records, half](std::size_t i, const char* key) {
+            const Json& motion = records[i].at("motion");
+            return motion.contains(half) ? motion.at(half).at(key) : Json();
+        };
+        const std::string name = std::string("seen_") + half;
+        columns.push_back(
+            {name + "_mm",
+             described("Of a chimeric clip: farthest way of a landmark of this half", "mm"),
+             [measure](std::size_t i) {
+                 const Json mm = measure(i, "seen_mm");
+                 return mm.is_null() ? mm : rounded(mm.get<double>());
+             }});
+        columns.push_back(
+            {name + "_share",
+             described("That / the same of this half's own expression, of the landmarks of this "
+                       "half, settled at full intensity on its head"),
+             [measure](std::size_t i) {
+                 const Json mm = measure(i, "seen_mm"), full = measure(i, "full_mm");
+                 return mm.is_null() || full.is_null() || !(full.get<double>() > 0)
+                            ? Json()
+                            : rounded(mm.get<double>() / full.get<double>());
+             }});
+    }
+}
+
+/// The columns for what is said; none in a set without speech.
+void add_speech(const std::vector<Json>& records, std::vector<Column>& columns) {
+    if (std::none_of(records.begin(), records.end(),
+                     [](const Json& one) { return one.contains("speech"); }))
+        return;
+    const auto of_speech = [&](const char* key) {
+        return [&records, key](std::size_t i) {
+            return records[i].contains("speech") ? records[i].at("speech").at(key) : Json();
+        };
+    };
+    columns.push_back({"lip_onset_s",
+                       described("When gap or opening of the lips have changed by 5 % of their "
+                                 "range, between frames",
+                                 "s"),
+                       of_speech("lip_onset_s")});
+    columns.push_back({"closure_s",
+                       described("When the first stop or nasal that is seen is closed", "s"),
+                       of_speech("closure_s")});
+    columns.push_back({"release_s", described("When it is released", "s"), of_speech("release_s")});
+    columns.push_back(
+        {"burst_s",
+         described("When the first stop or nasal that is heard is released in the sound", "s"),
+         of_speech("burst_s")});
+    columns.push_back(
+        {"soa_measured_ms", described("burst_s - release_s", "ms"), of_speech("soa_ms")});
+}
+
 std::vector<Column> columns_of(const BatchPlan& plan, const std::vector<Json>& records) {
     const std::vector<ClipPlan>& clips = plan.clips;
     const auto of_record = [&](const char* key) {
@@ -230,6 +285,7 @@ std::vector<Column> columns_of(const BatchPlan& plan, const std::vector<Json>& r
                        described("Highest peak of the whole recording by EBU R 128", "dBTP"),
                        of_sound("true_peak_dbtp")});
     }
+    add_speech(records, out);
     const bool chimeric = std::any_of(records.begin(), records.end(),
                                       [](const Json& one) { return one.contains("seam"); });
     const auto of_seam = [&](const char* key) {
@@ -247,6 +303,7 @@ std::vector<Column> columns_of(const BatchPlan& plan, const std::vector<Json>& r
                        described("Root mean square difference of relative luminance between the "
                                  "two faces of a chimeric clip at the seam, mean of the frames"),
                        of_seam("difference_mean")});
+        add_halves(records, out);
     }
     for (const std::string& name : value_names(records))
         out.push_back({name, described("Parameter of the design, see code/design.json"),

@@ -17,6 +17,17 @@ namespace {
 constexpr double kSoft = 0.04;  // height of the seam / width of the face
 constexpr int kHalfOpaque = 128;
 
+/// Puts a pixel into another one, with a weight. Colours count as much as they are opaque.
+template <typename Value>
+void mix(const Value* below, double weight, Value* pixel) {
+    const double over_a = (1 - weight) * pixel[3], below_a = weight * below[3];
+    const double alpha = over_a + below_a;
+    for (int k = 0; k < 3 && alpha > 0; ++k)
+        pixel[k] =
+            static_cast<Value>(std::lround((over_a * pixel[k] + below_a * below[k]) / alpha));
+    pixel[3] = static_cast<Value>(std::lround(alpha));
+}
+
 /// The height of a landmark in the first frame, px from the top.
 double height_of(const animate::FrameRows& rows, const std::string& id, const std::string& place) {
     const int column = rows.column(id + ".v_px");
@@ -62,21 +73,26 @@ void Chimera::measure(const Image& upper, const Image& lower) {
 void Chimera::combine(int frame, Image& upper) {
     const Image& lower = lower_[static_cast<std::size_t>(frame)];
     measure(upper, lower);
+    if (lower.deep.empty()) upper.deep.clear();
     for (int y = 0; y < upper.height_px; ++y) {
         const double weight = weight_of_lower(y);
         if (weight <= 0) continue;
         for (int x = 0; x < upper.width_px; ++x) {
             const int from = x - offset_px_;
-            const std::uint8_t* below =
-                from >= 0 && from < upper.width_px ? lower.pixel(from, y) : background_.data();
-            std::uint8_t* pixel = upper.pixel(x, y);
-            // Colours count as much as they are opaque.
-            const double over_a = (1 - weight) * pixel[3], below_a = weight * below[3];
-            const double alpha = over_a + below_a;
-            for (int k = 0; k < 3 && alpha > 0; ++k)
-                pixel[k] = static_cast<std::uint8_t>(
-                    std::lround((over_a * pixel[k] + below_a * below[k]) / alpha));
-            pixel[3] = static_cast<std::uint8_t>(std::lround(alpha));
+            const bool inside = from >= 0 && from < upper.width_px;
+            const auto at = static_cast<std::size_t>(upper.pixel(x, y) - upper.rgba.data());
+            if (upper.deep.empty()) {
+                mix(inside ? lower.pixel(from, y) : background_.data(), weight, &upper.rgba[at]);
+                continue;
+            }
+            std::array<std::uint16_t, 4> behind{};
+            if (inside)
+                std::copy_n(
+                    &lower.deep[static_cast<std::size_t>(lower.pixel(from, y) - lower.rgba.data())],
+                    4, behind.begin());
+            mix(behind.data(), weight, &upper.deep[at]);
+            for (std::size_t k = 0; k < 4; ++k)
+                upper.rgba[at + k] = static_cast<std::uint8_t>((upper.deep[at + k] + 128U) / 257U);
         }
     }
 }
@@ -93,6 +109,22 @@ Json Chimera::json() const {
           any ? *std::max_element(differences_.begin(), differences_.end()) : 0.0}});
 }
 
+bool Chimera::is_lower(const animate::FrameRows& upper, const std::string& id) const {
+    const int height = upper.column(id + ".v_px");
+    return height >= 0 && upper.number(0, height) >= row_px_;
+}
+
+LandmarkChoice Chimera::landmarks(const animate::FrameRows& upper, bool of_lower) const {
+    const std::string x = ".x_mm";
+    std::set<std::string> ids;
+    for (const std::string& name : upper.names)
+        if (name.ends_with(x))
+            if (const std::string id = name.substr(0, name.size() - x.size());
+                is_lower(upper, id) == of_lower)
+                ids.insert(id);
+    return LandmarkChoice(std::move(ids));
+}
+
 animate::FrameRows Chimera::rows(const animate::FrameRows& upper,
                                  const animate::FrameRows& lower) const {
     animate::FrameRows out = upper;
@@ -100,8 +132,8 @@ animate::FrameRows Chimera::rows(const animate::FrameRows& upper,
         const std::string& name = out.names[c];
         if (!is_of_landmark(name)) continue;
         const std::string id = name.substr(0, name.rfind('.'));
-        const int height = upper.column(id + ".v_px"), other = lower.column(name);
-        if (height < 0 || other < 0 || upper.number(0, height) < row_px_) continue;
+        const int other = lower.column(name);
+        if (other < 0 || !is_lower(upper, id)) continue;
         for (std::size_t r = 0; r < out.cells.size() && r < lower.cells.size(); ++r) {
             out.cells[r][c] = lower.cells[r][static_cast<std::size_t>(other)];
             if (offset_px_ != 0 && name.ends_with(".u_px")) {

@@ -12,6 +12,7 @@
 #include "risorius/core/image.h"
 #include "risorius/core/json_cursor.h"
 #include "risorius/stimuli/detail/clip.h"
+#include "risorius/stimuli/detail/seen_motion.h"
 
 namespace risorius::stimuli {
 
@@ -29,10 +30,14 @@ class Chimera {
     /// relative luminance between the two faces in the rows that they share: mean over the frames, and the largest.
     Json json() const;
 
+    /// Returns the landmarks that the lower or the upper half shows. `upper`: the table of the upper half.
+    LandmarkChoice landmarks(const animate::FrameRows& upper, bool of_lower) const;
+
     /// Returns the table of the upper half with landmarks below the seam from that of the lower one.
     animate::FrameRows rows(const animate::FrameRows& upper, const animate::FrameRows& lower) const;
 
   private:
+    bool is_lower(const animate::FrameRows& upper, const std::string& id) const;
     double weight_of_lower(int y) const;
     void measure(const Image& upper, const Image& lower);
 

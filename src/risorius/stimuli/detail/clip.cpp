@@ -23,11 +23,13 @@
 #include "risorius/media/video_writer.h"
 #include "risorius/media/wav_file.h"
 #include "risorius/stimuli/detail/aois.h"
-#include "risorius/stimuli/detail/chimera.h"
+#include "risorius/stimuli/detail/chimera_halves.h"
 #include "risorius/stimuli/detail/clip_pictures.h"
 #include "risorius/stimuli/detail/clip_plan.h"
+#include "risorius/stimuli/detail/clip_speech.h"
 #include "risorius/stimuli/detail/expression_script.h"
 #include "risorius/stimuli/detail/frame_columns.h"
+#include "risorius/stimuli/detail/known_motion.h"
 #include "risorius/stimuli/detail/mirrored_rows.h"
 #include "risorius/stimuli/detail/picture_frame.h"
 #include "risorius/stimuli/detail/seen_motion.h"
@@ -230,8 +232,10 @@ struct ShownClip {
     int first_source = 0;    ///< the frame of the script in the first row
     SeenMotion motion;
     std::optional<double> commanded_onset_s, commanded_apex_s;
-    Json run, luminance;  ///< luminance: null if it is not matched
-    Json seam;            ///< of a chimeric clip; null in others
+    Json run, luminance;                ///< luminance: null if it is not matched
+    Json seam;                          ///< of a chimeric clip; null in others
+    Json speech;                        ///< null when nothing is said
+    std::optional<HalfMotions> halves;  ///< of a chimeric clip
 };
 
 /// When the strongest expression of a script is told to begin and to be complete.
@@ -255,8 +259,8 @@ std::optional<double> full_motion_mm(const ClipPlan& plan, const ClipWorker& wor
     full.condition.script = *script;
     const std::string key = json_text(*script) + plan.condition.folder.string();
     return worker.settled.at(key, [&] {
-        return largest_way_mm(animate::settled_landmarks(
-            render_job_of(full, worker.folder / "none.mkv", {}, worker), worker.session));
+        return settled_way_mm(render_job_of(full, worker.folder / "none.mkv", {}, worker),
+                              worker.session);
     });
 }
 
@@ -285,26 +289,6 @@ void show_pictures(const animate::RenderJob& job, const std::optional<UnmatchedR
     shown.rows = animate::frame_rows(result.table);
 }
 
-/// The lower half of a chimeric clip.
-struct LowerHalf {
-    std::vector<Image> frames;
-    animate::FrameRows rows;
-};
-
-LowerHalf lower_half(const ClipPlan& plan, const ClipWorker& worker) {
-    const ClipPlan& lower = *plan.lower;
-    std::optional<int> frame;
-    if (lower.clips.pictures()) frame = picture_frame(lower, worker).frame;
-    animate::RenderJob job = render_job_of(lower, worker.folder / "none.mkv", {}, worker, frame);
-    if (ClipPictures::has_layers(plan)) job.view.background.transparent = true;
-    LowerHalf out;
-    const animate::RenderResult result = animate::run_render_job(
-        job, worker.session, [&](Image image) { out.frames.push_back(std::move(image)); },
-        worker.monitor);
-    out.rows = animate::frame_rows(result.table);
-    return out;
-}
-
 /// What is seen to move in a video, and the order of its frames.
 void find_motion(const ClipPlan& plan, const animate::RenderJob& job, const ClipWorker& worker,
                  ShownClip& shown) {
@@ -324,8 +308,8 @@ void find_motion(const ClipPlan& plan, const animate::RenderJob& job, const Clip
                                             plan.condition.seed);
     shown.order.insert(shown.order.begin(), static_cast<std::size_t>(plan.lead_frames),
                        shown.order.front());
-    // A mask shows no face.
-    if (control.kind != ControlKind::kMondrian)
+    // A mask shows no face, and a chimera two.
+    if (control.kind != ControlKind::kMondrian && !plan.lower)
         shown.motion = seen_motion(shown.rows, twin, shown.order, plan.fps);
 }
 
@@ -339,8 +323,9 @@ ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
     const ControlKind kind = plan.condition.control.kind;
     const animate::FrameRows upper = shown.rows;  // what pictures are measured by
     std::optional<Chimera> chimera;
+    LowerHalf lower;
     if (plan.lower) {
-        LowerHalf lower = lower_half(plan, worker);
+        lower = lower_half(plan, worker);
         chimera.emplace(plan, upper, std::move(lower.frames));
         pictures.combine_with(*chimera);
         shown.rows = chimera->rows(upper, lower.rows);
@@ -355,11 +340,20 @@ ShownClip show_clip(const ClipPlan& plan, const animate::RenderJob& job,
             shown.motion.landmark = picture->landmark;
         }
     }
+    if (chimera) {
+        shown.halves = picture
+                           ? half_motions(plan, picture->frame, upper, lower, *chimera, worker)
+                           : half_motions(plan, job, upper, lower, *chimera, shown.order, worker);
+        shown.motion =
+            seen_together(shown.halves->upper, shown.halves->lower, shown.order, plan.fps);
+    }
     if (kind == ControlKind::kMirrored) shown.motion.landmark = other_side(shown.motion.landmark);
     if (shown.motion.seen_mm && !chimera) shown.motion.full_mm = full_motion_mm(plan, worker);
     if (!picture && !chimera && std::is_sorted(shown.order.begin(), shown.order.end()) &&
         shown.motion.seen_mm)
         find_commanded(job.script, static_cast<double>(plan.lead_frames) / plan.fps, shown);
+    if (!picture && std::is_sorted(shown.order.begin(), shown.order.end()))
+        shown.speech = speech_moments(job, upper);
     pictures.know(upper);
     pictures.finish(shown.order);
     if (chimera) shown.seam = chimera->json();
@@ -373,6 +367,10 @@ Json sidecar_of(const ClipPlan& plan, ShownClip shown, ClipPictures& pictures) {
     Json motion = json_of(shown.motion, pictures.pixel_onset());
     motion["commanded_onset_s"] = or_null(shown.commanded_onset_s);
     motion["commanded_apex_s"] = or_null(shown.commanded_apex_s);
+    if (shown.halves) {
+        motion["upper"] = json_of_half(shown.halves->upper);
+        motion["lower"] = json_of_half(shown.halves->lower);
+    }
     Json record = json_object({{"format", "risorius-clip"},
                                {"version", 1},
                                {"stim_id", plan.condition.clip},
@@ -393,13 +391,14 @@ Json sidecar_of(const ClipPlan& plan, ShownClip shown, ClipPictures& pictures) {
     for (const auto& [name, value] : plan.condition.values) record["values"][name] = value;
     if (plan.sound)
         record["audio"] =
-            json_object({{"file", plan.sound->file.filename().generic_string()},
+            json_object({{"file", fs::path(plan.sound->name).filename().generic_string()},
                          {"sha256", plan.sound->sha256},
                          {"offset_samples", plan.sound->offset_samples},
                          {"gain_db", plan.sound->gain_db},
                          {"onset_s", or_null(plan.sound->onset_s)},
                          {"loudness_lufs", finite_or_null(plan.sound->loudness.integrated_lufs)},
                          {"true_peak_dbtp", finite_or_null(plan.sound->loudness.true_peak_dbtp)}});
+    if (!shown.speech.is_null()) record["speech"] = std::move(shown.speech);
     if (!shown.seam.is_null()) record["seam"] = std::move(shown.seam);
     if (!shown.luminance.is_null()) record["luminance"] = std::move(shown.luminance);
     return record;

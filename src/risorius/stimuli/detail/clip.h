@@ -95,10 +95,19 @@ struct ClipPlan {
     void match(const media::Tone& matched);
 };
 
-/// Checks the script of a condition against its rig. `lead_s`: how long before the script the earliest recording of the set begins.
-/// Throws Error naming the condition.
-ClipPlan plan_clip(design::Condition condition, double lead_s, const design::Design& design,
-                   animate::RenderInputs& inputs, SoundPlans& sounds);
+class ClipChecks;
+
+/// What the clips of a design share while they are planned.
+struct PlanShared {
+    const design::Design& design;
+    animate::RenderInputs& inputs;
+    SoundPlans& sounds;
+    ClipChecks& checks;
+};
+
+/// Checks the script of a condition against its rig, and everything that would stop the clip later. `lead_s`: how long before the script
+/// the earliest recording of the set begins. Throws Error naming the condition.
+ClipPlan plan_clip(design::Condition condition, double lead_s, const PlanShared& shared);
 
 /// Returns whether `folder` holds this clip with all its files unchanged.
 bool is_made(const ClipPlan& plan, const std::filesystem::path& folder);

@@ -25,8 +25,7 @@ constexpr int kThumb_px = 120;
 constexpr int kStripFrames = 5;
 constexpr int kPhotodiode_px = 64;
 constexpr unsigned kNextFrame = 0x9E3779B9;
-constexpr double kLeastPxPerCycle = 4;  // an octave below half the sampling rate
-constexpr double kSeenChange = 1e-7;    // mean of squared differences of relative luminance
+constexpr double kSeenChange = 1e-7;  // mean of squared differences of relative luminance
 
 /// A fixed window that contains the landmarks of eyes or mouth in all frames.
 Window window_around(const animate::FrameRows& rows, design::ControlKind kind,
@@ -156,6 +155,8 @@ ClipPictures::ClipPictures(const ClipPlan& plan, std::function<void(const Image&
 }
 
 void ClipPictures::add(Image image) {
+    // Sixteen bits say all that bytes do.
+    if (later_ && !image.deep.empty()) std::vector<std::uint8_t>().swap(image.rgba);
     if (later_)
         held_.push_back(std::move(image));
     else
@@ -165,7 +166,13 @@ void ClipPictures::add(Image image) {
 void ClipPictures::finish(const std::vector<int>& order) {
     if (!later_) return;
     if (shows_part(kind_)) window_ = window_around(*rows_, kind_, plan_.condition.clip);
-    for (const int frame : order) write(held_[static_cast<std::size_t>(frame)], frame);
+    for (const int frame : order) {
+        Image image = held_[static_cast<std::size_t>(frame)];
+        if (image.rgba.empty())
+            for (const std::uint16_t value : image.deep)
+                image.rgba.push_back(static_cast<std::uint8_t>((value + 128U) / 257U));
+        write(std::move(image), frame);
+    }
 }
 
 Image ClipPictures::strip() const {
@@ -205,13 +212,8 @@ void ClipPictures::look_for_change(const Image& image) {
 void ClipPictures::pass(const std::vector<float>& oval, Image& image) {
     const design::Control& control = plan_.condition.control;
     const bool band = kind_ == ControlKind::kBandPass;
-    const double face_px = width_of_face(*rows_, plan_.condition.clip),
-                 finest = band ? control.upper_cycles_per_face : control.cycles_per_face;
-    if (face_px < kLeastPxPerCycle * finest)
-        throw Error(plan_.condition.clip,
-                    "a face of " + format_number(kLeastPxPerCycle * finest) +
-                        " px or more for this cycles_per_face",
-                    format_number(std::round(face_px)) + " px");
+    // clip_checks.h has refused a face that is too small.
+    const double face_px = width_of_face(*rows_, plan_.condition.clip);
     media::PassFilter filter{.high = kind_ != ControlKind::kLowPass,
                              .cut_cycles_per_px = control.cycles_per_face / face_px,
                              .order = control.order,

@@ -14,7 +14,9 @@
 #include "risorius/media/sync_marks.h"
 #include "risorius/media/video_writer.h"
 #include "risorius/stimuli/detail/clip.h"
+#include "risorius/stimuli/detail/clip_checks.h"
 #include "risorius/stimuli/detail/clip_pictures.h"
+#include "risorius/stimuli/detail/clip_speech.h"
 #include "risorius/track/timeline.h"
 
 namespace risorius::stimuli {
@@ -30,7 +32,7 @@ constexpr double kClip_s = 0.1, kFrame_s = 0.04, kPlayedFrame_s = 0.015, kPixel_
 constexpr int kOneKeyframe_s = 10;              // shorter clips have only one key frame
 constexpr int kFastFilm_hz = 240, kFinest = 8;  // for controls that change the speed
 constexpr double kRounding = 1e-9;              // of a number of frames
-constexpr double kMaxHeld_bytes = 0.6e9;        // limit for frames that are kept in memory
+constexpr double kMaxHeld_bytes = 1.2e9;        // limit for frames that are kept in memory
 
 }  // namespace
 
@@ -131,9 +133,11 @@ void check_control(const ClipPlan& plan, const track::ScriptDescription& script,
     if (plan.clips.still_s.value_or(0) * plan.fps > plan.script_frames - 1 + kRounding)
         throw Error(place, "a script that lasts until clips/still_s",
                     format_number(static_cast<double>(plan.script_frames) / plan.fps) + " s");
-    if (needs_all_frames(plan) && 4.0 * (plan.finer() + (kind == design::ControlKind::kChimeric)) *
-                                          plan.frames * plan.width_px * plan.height_px >
-                                      kMaxHeld_bytes)
+    const double pixel_bytes = plan.luminance ? 8 : 4;  // of a frame that waits
+    if (needs_all_frames(plan) &&
+        pixel_bytes * (plan.finer() + (kind == design::ControlKind::kChimeric)) * plan.frames *
+                plan.width_px * plan.height_px >
+            kMaxHeld_bytes)
         throw Error(place,
                     "fewer or smaller frames for " +
                         (plan.is_control() ? "the control " + plan.condition.control.name()
@@ -167,6 +171,7 @@ std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256
     if (plan.clips.pictures())
         rendered["picture"] = plan.clips.still_s ? Json(*plan.clips.still_s) : Json("apex");
     if (plan.finer() > 1) rendered["finer"] = plan.finer();
+    if (plan.luminance) rendered["bits"] = 16;
     for (const Json::json_pointer& key : file_keys(condition.script)) {
         rendered["script"][key] = "";
         const fs::path file = condition.script.at(key).get<std::string>();
@@ -178,7 +183,7 @@ std::string render_sha256_of(const ClipPlan& plan, const std::string& rig_sha256
 }
 
 /// Changes when clips are made or measured in another way, so that older ones are made anew.
-constexpr int kWayOfMaking = 3;
+constexpr int kWayOfMaking = 4;
 
 Json or_none(const std::optional<int>& value) { return value ? Json(*value) : Json(); }
 
@@ -214,14 +219,12 @@ std::string content_sha256_of(const ClipPlan& plan) {
 
 /// Plans what the lower half of a chimeric clip shows. Throws Error when it is not as long or as large as the upper half.
 std::shared_ptr<const ClipPlan> plan_lower_half(const ClipPlan& upper, double lead_s,
-                                                const design::Design& design,
-                                                animate::RenderInputs& inputs, SoundPlans& sounds) {
+                                                const PlanShared& shared) {
     design::Condition condition = upper.condition;
     condition.script = std::exchange(condition.lower_script, Json());
     condition.control = {};
     condition.audio.reset();
-    auto lower =
-        std::make_shared<const ClipPlan>(plan_clip(condition, lead_s, design, inputs, sounds));
+    auto lower = std::make_shared<const ClipPlan>(plan_clip(condition, lead_s, shared));
     const auto shape = [](const ClipPlan& plan) {
         return std::to_string(plan.script_frames) + " frames at " + std::to_string(plan.fps) +
                " fps of " + std::to_string(plan.width_px) + " x " + std::to_string(plan.height_px);
@@ -233,8 +236,8 @@ std::shared_ptr<const ClipPlan> plan_lower_half(const ClipPlan& upper, double le
 
 }  // namespace
 
-ClipPlan plan_clip(design::Condition planned, double lead_s, const design::Design& design,
-                   animate::RenderInputs& inputs, SoundPlans& sounds) {
+ClipPlan plan_clip(design::Condition planned, double lead_s, const PlanShared& shared) {
+    const design::Design& design = shared.design;
     const design::ClipOptions& clips = design.clips;
     ClipPlan plan;
     plan.condition = std::move(planned);
@@ -244,7 +247,7 @@ ClipPlan plan_clip(design::Condition planned, double lead_s, const design::Desig
     plan.script_name = script_name(condition, design.file);
     const JsonCursor json = JsonCursor::from_json(condition.script, plan.script_name);
     const track::ScriptHeader header = track::read_script_header(json);
-    const std::shared_ptr<const animate::RigInput> input = inputs.rig(header.rig_file);
+    const std::shared_ptr<const animate::RigInput> input = shared.inputs.rig(header.rig_file);
     const rig::RigDescription& rig = input->files.rig;
     const track::ChannelTable channels = rig.channels();
     const track::ScriptDescription script =
@@ -259,27 +262,31 @@ ClipPlan plan_clip(design::Condition planned, double lead_s, const design::Desig
     for (std::size_t k = 0; k < 3; ++k)
         plan.background[k] =
             static_cast<std::uint8_t>(std::lround(255 * header.view.background_rgb[k]));
-    check_control(plan, script, channels, json.place());
-    if (clips.photodiode) media::corner_named(*clips.photodiode, "clips/photodiode");
+    check_control(plan, script, channels, plan.script_name);
+    if (clips.photodiode)
+        media::corner_named(*clips.photodiode, design.file.string() + ":/clips/photodiode");
     if (!clips.pictures())
-        media::check_target("clips." + clips.ending, {.width_px = plan.width_px,
-                                                      .height_px = plan.height_px,
-                                                      .fps = plan.fps,
-                                                      .crf = clips.crf,
-                                                      .keyframe_interval = clips.keyframe_interval,
-                                                      .lossless = clips.lossless});
+        media::check_target(plan.script_name + "." + clips.ending,
+                            {.width_px = plan.width_px,
+                             .height_px = plan.height_px,
+                             .fps = plan.fps,
+                             .crf = clips.crf,
+                             .keyframe_interval = clips.keyframe_interval,
+                             .lossless = clips.lossless});
     if (condition.audio) {
         design::Condition heard = condition;
         heard.audio_start_s += static_cast<double>(plan.lead_frames) / plan.fps;
-        plan.sound = sounds.at(heard, static_cast<double>(plan.frames) / plan.fps,
-                               design.match.loudness_lufs, json.place());
+        plan.sound = shared.sounds.at(heard, static_cast<double>(plan.frames) / plan.fps,
+                                      design.match.loudness_lufs, json.place());
     }
+    if (!condition.audio && !script.says.empty() && !clips.pictures())
+        plan.sound = spoken_sound(plan, shared.checks.quick_inputs(), design.match.loudness_lufs);
     const std::string rig_sha256 = sha256_of_rig(*input);
     plan.scene_sha256 = animate::sha256_of_text(
         json_text(Json{rig_sha256, clips.quality, condition.script.value("view", Json())}));
+    shared.checks.check(plan, script, shared.inputs, plan.script_name);
     plan.render_sha256 = render_sha256_of(plan, rig_sha256);
-    if (!condition.lower_script.is_null())
-        plan.lower = plan_lower_half(plan, lead_s, design, inputs, sounds);
+    if (!condition.lower_script.is_null()) plan.lower = plan_lower_half(plan, lead_s, shared);
     plan.content_sha256 = content_sha256_of(plan);
     return plan;
 }

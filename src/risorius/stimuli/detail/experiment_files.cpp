@@ -11,6 +11,7 @@
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/stimuli/detail/experiment_programs.h"
+#include "risorius/stimuli/detail/expression_script.h"
 
 namespace risorius::stimuli {
 
@@ -135,6 +136,24 @@ std::vector<Json> condition_rows(const BatchPlan& plan, const std::vector<Json>&
     return out;
 }
 
+/// The rows with "codes", a list of [code, time in s], for a page that reads no table.
+Json with_codes(const std::vector<Json>& rows, const BatchPlan& plan,
+                const std::vector<Json>& records) {
+    std::map<std::string, Json> codes;
+    for (const Json& record : records) {
+        Json& of = codes[record.at("stim_id").get<std::string>()] = Json::array();
+        for (const Trigger& trigger : triggers_of(record, plan.codes))
+            if (trigger.merged_into.empty())
+                of.push_back(Json::array({trigger.code, trigger.time_s}));
+    }
+    Json out = Json::array();
+    for (Json row : rows) {
+        row["codes"] = codes.at(row.at("stim_id").get<std::string>());
+        out.push_back(std::move(row));
+    }
+    return out;
+}
+
 std::string csv_table(const std::vector<Json>& rows) {
     std::string out;
     for (const auto& [name, value] : rows.front().items())
@@ -157,7 +176,7 @@ void check_backgrounds(const BatchPlan& plan) {
         if (!first) first = &clip;
         if (clip.background != first->background)
             throw Error(
-                "experiment", "one background in all clips that are shown",
+                plan.place("experiment"), "one background in all clips that are shown",
                 "another one in " + clip.condition.clip + " than in " + first->condition.clip);
     }
 }
@@ -170,7 +189,8 @@ void check_levels(BatchPlan& plan) {
         for (const ClipPlan& clip : plan.clips)
             known = known || !text_of(clip.condition, name).empty();
         if (!known)
-            throw Error("experiment/series_by", "names of parameters", risorius::in_quotes(name));
+            throw Error(plan.place("experiment/series_by"), "names of parameters",
+                        risorius::in_quotes(name));
     }
     std::map<std::string, std::set<std::string>> levels;
     for (const ClipPlan& clip : plan.clips) {
@@ -178,10 +198,10 @@ void check_levels(BatchPlan& plan) {
             correct_key(experiment, clip.condition).empty())
             continue;
         if (experiment.over == "seen_share") {
-            if (clip.clips.pictures())
-                throw Error("experiment/over",
-                            "a parameter with numbers, for pictures, whose motion is not seen",
-                            "\"seen_share\"");
+            // A face at rest, and random movements, have no share.
+            if (!clip.condition.units.empty() ||
+                !expression_at_full_intensity(clip.condition.script))
+                continue;
             // Which share is seen is known when the clips are there; each is a level until then.
             levels[series_of(experiment, clip.condition)].insert(clip.condition.clip);
             continue;
@@ -190,14 +210,18 @@ void check_levels(BatchPlan& plan) {
         char* end = nullptr;
         const double number = std::strtod(text.c_str(), &end);
         if (text.empty() || *end != 0 || !(number > 0))
-            throw Error("experiment/over", "a parameter with numbers above 0 in all clips",
+            throw Error(plan.place("experiment/over"),
+                        "a parameter with numbers above 0 in all clips",
                         risorius::in_quotes(experiment.over) + ", " + risorius::in_quotes(text) +
                             " in " + clip.condition.clip);
         levels[series_of(experiment, clip.condition)].insert(text);
     }
+    if (levels.empty())
+        throw Error(plan.place("experiment/over"),
+                    "expressions or units in the clips, for \"seen_share\"", "none");
     for (const auto& [series, of] : levels) {
         if (of.size() < 2)
-            throw Error("experiment/method", "two levels at least in each series",
+            throw Error(plan.place("experiment/method"), "two levels at least in each series",
                         "one in " + risorius::in_quotes(series));
         if (of.size() < 8)
             plan.notes.push_back("experiment: the series " + risorius::in_quotes(series) + " has " +
@@ -223,14 +247,15 @@ void check_experiment(BatchPlan& plan) {
         if (clip.clips.ending != "mp4" && clip.clips.ending != "webm" && !clip.clips.pictures() &&
             std::any_of(experiment.programs.begin(), experiment.programs.end(),
                         [](const std::string& one) { return one != "psychopy"; }))
-            throw Error("clips/ending",
+            throw Error(plan.place("clips/ending"),
                         "mp4, webm or png, which browsers show, for jspsych and rating",
                         clip.clips.ending);
     }
     check_backgrounds(plan);
-    if (!any) throw Error("experiment", "at least one clip that is shown", "none");
+    if (!any) throw Error(plan.place("experiment"), "at least one clip that is shown", "none");
     if (experiment.correct && !any_correct)
-        throw Error("experiment/correct", "a parameter with values that are among the answers",
+        throw Error(plan.place("experiment/correct"),
+                    "a parameter with values that are among the answers",
                     risorius::in_quotes(*experiment.correct));
     if (is_adaptive(experiment)) check_levels(plan);
     if (!without.empty())
@@ -257,7 +282,7 @@ void write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
     Json answers = Json::array();
     for (const auto& [key, answer] : experiment.answers)
         answers.push_back(json_object({{"key", key}, {"answer", answer}}));
-    constexpr const char* kMethods[] = {"constant", "staircase", "quest"};
+    const std::string& method = design::method_names()[static_cast<std::size_t>(experiment.method)];
     const design::TriggerOptions& triggers = plan.triggers;
     const Json settings = json_object({{"name", plan.name},
                                        {"clips", "../stimuli/"},
@@ -269,7 +294,7 @@ void write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
                                        {"blocks", experiment.blocks},
                                        {"practice", experiment.practice},
                                        {"catch", experiment.catch_share},
-                                       {"method", kMethods[static_cast<int>(experiment.method)]},
+                                       {"method", method},
                                        {"trials", experiment.trials},
                                        {"scales", experiment.scales},
                                        {"pulse_ms", triggers.pulse_ms},
@@ -286,8 +311,9 @@ void write_experiment(const BatchPlan& plan, const std::vector<Json>& records,
     for (const std::string& program : experiment.programs) {
         if (program == "psychopy") write("experiment.py", psychopy_program());
         if (program == "jspsych")
-            write("index.html", jspsych_page(plan.name, experiment.jspsych_from,
-                                             json_text(settings, 1), json_text(Json(rows), 1)));
+            write("index.html",
+                  jspsych_page(plan.name, experiment.jspsych_from, json_text(settings, 1),
+                               json_text(with_codes(rows, plan, records), 1)));
         if (program == "rating")
             write("rating.html", rating_page(plan.name, experiment.jspsych_from,
                                              json_text(settings, 1), json_text(Json(rows), 1)));

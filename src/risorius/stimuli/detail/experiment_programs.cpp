@@ -57,12 +57,13 @@ std::string within_script(std::string json) {
 /// What both pages share: the trials are kept in the browser, and saved or offered at the end.
 const char* const kKeeping = R"js(
 'use strict';
-// An example to start from. The address may say ?participant=7, ?seed=1 for an order that can be had again, and ?save=URL:
+// An example to start from. The address may say ?participant=7, ?run=2, ?seed=1 for an order that can be had again, and ?save=URL:
 // the data are sent there as JSON when all is done, and offered as a file when that fails or no address is given.
 // Every trial is also kept in the browser (IndexedDB) at once, and stays there until the data have been saved.
 const asked = new URLSearchParams(location.search);
 const escaped = (text) => String(text).replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
 const participant = asked.get('participant') || '';
+const runNumber = Math.max(1, Math.floor(Number(asked.get('run')) || 1));
 document.body.style.background = settings.background;
 
 // What is kept: a list of trials for each run, by the time of its start
@@ -181,6 +182,7 @@ function shown(which, keys, more) {
             data.frames_seen = seen;
             data.flag = begun === null || (still ? document.hidden : seen < clip.frames - 1) ? 'frames_missing' : '';
             // jsPsych counts from the start of the trial.
+            data.pressed_ms = data.rt === null ? null : loaded + data.rt;
             if (begun !== null && data.rt !== null) data.rt_from_first_frame = data.rt - (begun - loaded);
             if (more.on_finish) more.on_finish(data, clip);
         },

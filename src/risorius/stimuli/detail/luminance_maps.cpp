@@ -85,7 +85,7 @@ std::vector<double> target_of(const BatchPlan& plan,
                      static_cast<double>(fitted.size());
     if (!match.allow_clipping && (cut > match.cut_limit || std::abs(reached - sd) > kNearTarget ||
                                   std::abs(media::mean_of_quantiles(fitted) - mean) > kNearTarget))
-        throw Error("match/luminance",
+        throw Error(plan.place("match/luminance"),
                     "a mean and an sd that the histogram can have without more than " +
                         format_number(100 * match.cut_limit) +
                         " % at black or white, or \"allow_clipping\": true",
@@ -109,6 +109,15 @@ std::vector<double> mean_amplitudes(const std::vector<std::vector<double>>& ampl
     const double now = media::RingAmplitudes::energy(out, width_px, height_px);
     for (double& one : out) one *= now > 0 ? std::sqrt(energy / now) : 1;
     return out;
+}
+
+/// Spectra can be compared in pictures of one size only.
+void check_sizes(const BatchPlan& plan) {
+    const ClipPlan& first = plan.clips.front();
+    for (const ClipPlan& clip : plan.clips)
+        if (clip.width_px != first.width_px || clip.height_px != first.height_px)
+            throw Error(plan.place("match/luminance/spectrum"), "pictures of one size",
+                        clip.condition.clip + " of another one than " + first.condition.clip);
 }
 
 double octave_edge(int octave) { return std::ldexp(1.0, octave); }
@@ -141,6 +150,7 @@ std::string map_group(const ClipPlan& clip, OneFor one_for) {
 void name_maps(BatchPlan& plan) {
     if (!plan.match.luminance || !plan.match.luminance->has_maps()) return;
     const design::LuminanceMatch& match = *plan.match.luminance;
+    if (match.spectrum) check_sizes(plan);
     Json renders = Json::array();
     for (const ClipPlan& clip : plan.clips)
         if (!clip.is_control()) renders.push_back(clip.render_sha256);
@@ -172,11 +182,8 @@ void fit_maps(const fs::path& folder, BatchPlan& plan) {
             distribution.add(picture);
         quantiles.push_back(distribution.quantiles());
         for (const ClipPlan* clip : group) {
-            width_px = width_px == 0 ? clip->width_px : width_px;
-            height_px = height_px == 0 ? clip->height_px : height_px;
-            if (match.spectrum && (clip->width_px != width_px || clip->height_px != height_px))
-                throw Error("match/luminance/spectrum", "pictures of one size",
-                            clip->condition.clip + " of another one");
+            width_px = clip->width_px;  // one for all, see check_sizes()
+            height_px = clip->height_px;
         }
     }
     auto mapped = std::make_shared<MappedLuminance>();

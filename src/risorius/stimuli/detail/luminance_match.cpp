@@ -127,8 +127,9 @@ std::string percent(double fraction) {
 }
 
 /// Throws Error, or adds a note, when the map of a group clips too much.
-void check_cut(const design::LuminanceMatch& match, const std::map<std::string, Group>& groups,
-               double mean, double sd, std::vector<std::string>& notes) {
+void check_cut(const std::map<std::string, Group>& groups, double mean, double sd,
+               BatchPlan& plan) {
+    const design::LuminanceMatch& match = *plan.match.luminance;
     std::pair<std::string, double> worst{"", -1};
     double reachable = sd;
     for (const auto& [name, group] : groups) {
@@ -141,12 +142,12 @@ void check_cut(const design::LuminanceMatch& match, const std::map<std::string, 
     const std::string found =
         percent(worst.second) + " of the values of " + worst.first + " clipped at black or white";
     if (!match.allow_clipping)
-        throw Error("match/luminance",
+        throw Error(plan.place("match/luminance"),
                     percent(match.cut_limit) + " clipped at most, with this mean \"sd\": " +
                         format_number(std::floor(1000 * reachable) / 1000) +
                         " or less, or \"allow_clipping\": true",
                     found);
-    notes.push_back("match/luminance: " + found);
+    plan.notes.push_back("match/luminance: " + found);
 }
 
 }  // namespace
@@ -182,7 +183,7 @@ void match_luminance(const fs::path& folder, BatchPlan& plan) {
     if (!(all.sd() > 0)) throw RunError("the pictures have no contrast that could be matched");
     const double mean = match.mean.value_or(all.mean()), sd = match.sd.value_or(all.sd());
     for (auto& [name, group] : groups) group.fit = media::fitted_tone(group.colours, mean, sd);
-    check_cut(match, groups, mean, sd, plan.notes);
+    check_cut(groups, mean, sd, plan);
     for (ClipPlan& clip : plan.clips)
         clip.match(groups.at(map_group(clip, match.one_for)).fit.tone);
 }

@@ -12,6 +12,7 @@
 #include "risorius/core/version.h"
 #include "risorius/media/tone.h"
 #include "risorius/stimuli/detail/catalogue.h"
+#include "risorius/stimuli/detail/methods_sources.h"
 #include "risorius/stimuli/detail/unmatched_render.h"
 
 namespace risorius::stimuli {
@@ -63,7 +64,7 @@ std::vector<double> seen(const std::vector<Json>& records, const char* key, bool
     return out;
 }
 
-std::string clips_text(const BatchPlan& plan) {
+std::string clips_text(const BatchPlan& plan, const std::vector<Json>& records) {
     std::size_t conditions = 0;
     std::set<std::string> heads, sizes;
     std::vector<double> seconds;
@@ -88,7 +89,8 @@ std::string clips_text(const BatchPlan& plan) {
                       " [sex and age of the heads]. No person is shown. The faces were simulated "
                       "and rendered by Risorius " +
                       std::string(kVersion) + " (compiled with " + __VERSION__ +
-                      "): muscles move a soft skin over a skull in steps of 1/60 s. ";
+                      "): muscles move a soft skin over a skull in steps of 1/" +
+                      number(1 / records.front().at("run").value("step_s", 1.0 / 60), 0) + " s. ";
     const std::string size = joined({sizes.begin(), sizes.end()}) + " pixels";
     if (pictures)
         out += "The pictures had " + size +
@@ -136,20 +138,40 @@ std::string factors_text(const BatchPlan& plan) {
     return out.empty() ? out : "What varied:\n\n" + out;
 }
 
-std::string motion_text(const std::vector<Json>& records) {
-    const std::vector<double> onset = seen(records, "seen_onset_frame", true);
-    if (onset.empty()) return {};
+/// What match/motion has made equal.
+std::string matched_motion_text(const BatchPlan& plan) {
+    if (!plan.match.motion) return {};
+    const design::MotionMatch& motion = *plan.match.motion;
+    std::string out;
+    if (!motion.share.empty()) {
+        std::vector<std::string> shares;
+        for (const JsonCursor& share : motion.share) shares.push_back(catalogue_cell(share.json()));
+        out += "`" + motion.of +
+               "` was searched for each head and expression, so that what is seen is " +
+               joined(shares) + " of what full intensity shows. ";
+    }
+    if (motion.apex_s)
+        out += "`" + motion.apex_of + "` was searched so that every movement is at its apex at " +
+               format_number(*motion.apex_s) + " s. ";
+    return out;
+}
+
+std::string motion_text(const BatchPlan& plan, const std::vector<Json>& records) {
+    const std::vector<double> onset = seen(records, "seen_onset_frame", true),
+                              mm = seen(records, "seen_mm", false);
+    if (mm.empty()) return {};
     std::string out =
         "Movement was measured on landmarks of the shown frames, without head movement, blinks and "
-        "idle motion. "
-        "It was seen to begin at " +
-        range_of(onset, 3) +
-        " s (a landmark 0.3 mm, or 5 % of its way, from where it was) and to be at its apex at " +
-        range_of(seen(records, "seen_apex_frame", true), 3) + " s";
+        "idle motion. ";
+    if (!onset.empty())
+        out += "It was seen to begin at " + range_of(onset, 3) +
+               " s (a landmark 0.3 mm, or 5 % of its way, from where it was) and to be at its apex "
+               "at " +
+               range_of(seen(records, "seen_apex_frame", true), 3) + " s";
     if (const auto offset = seen(records, "seen_offset_frame", true); !offset.empty())
         out += ", and had ended at " + range_of(offset, 3) + " s";
-    out +=
-        ". The farthest landmark moved by " + range_of(seen(records, "seen_mm", false), 1) + " mm";
+    if (!onset.empty()) out += ". ";
+    out += matched_motion_text(plan) + "The farthest landmark moved by " + range_of(mm, 1) + " mm";
     std::vector<double> shares;
     for (const Json& record : records) {
         const Json& motion = record.at("motion");
@@ -203,39 +225,6 @@ std::string luminance_part(const BatchPlan& plan, const std::vector<Json>& recor
     return out + "\n";
 }
 
-std::string control_words(const design::Control& control) {
-    const std::string name = design::control_names()[static_cast<std::size_t>(control.kind) - 1];
-    std::string out = "`" + name + "`";
-    if (control.kind == ControlKind::kBandPass)
-        out += " (" + format_number(control.cycles_per_face) + " to " +
-               format_number(control.upper_cycles_per_face) + " cycles per face";
-    else if (control.passes())
-        out += " (" + format_number(control.cycles_per_face) + " cycles per face";
-    if (control.passes())
-        out += ", Butterworth filter of order " + std::to_string(control.order) + ", contrast " +
-               (control.keep_contrast ? "restored" : "as filtered") + ")";
-    if (control.kind == ControlKind::kNoise)
-        out += " (signal-to-noise ratio " + format_number(control.snr_db) + " dB)";
-    if (control.kind == ControlKind::kKnockOut) out += " (" + control.muscle + ")";
-    if (control.kind == ControlKind::kChimeric)
-        out += " (" + control.name() + ", the upper half of the condition over a lower half, cut " +
-               "half-way between nasion and subnasale)";
-    if (control.kind == ControlKind::kSpeed) out += " (" + control.name() + ")";
-    if (control.kind == ControlKind::kMondrian)
-        out += " (" + format_number(control.rate_hz) + " patterns per second)";
-    return out;
-}
-
-std::string controls_text(const BatchPlan& plan) {
-    std::map<std::string, std::size_t> count;
-    for (const ClipPlan& clip : plan.clips)
-        if (clip.is_control()) ++count[control_words(clip.condition.control)];
-    std::vector<std::string> words;
-    for (const auto& [name, clips] : count)
-        words.push_back(counted(clips, "clip", "clips") + " " + name);
-    return words.empty() ? "" : "The controls were " + joined(words) + ".\n";
-}
-
 std::string sound_text(const std::vector<Json>& records) {
     std::vector<double> loudness;
     for (const Json& record : records)
@@ -246,24 +235,27 @@ std::string sound_text(const std::vector<Json>& records) {
            range_of(loudness, 1) + " LUFS (EBU R 128) [level at the ear].\n";
 }
 
+std::string codes_text(const BatchPlan& plan) {
+    std::string out =
+        plan.codes.table.empty() ? "1 clip on" : "10 to 250 clip on, as codes.tsv has them";
+    out += plan.clips.front().clips.pictures() ? ", 4 clip off"
+                                               : ", 2 movement onset, 3 apex, 4 clip off";
+    if (std::any_of(plan.clips.begin(), plan.clips.end(),
+                    [](const ClipPlan& clip) { return clip.sound.has_value(); }))
+        out += ", 5 sound onset";
+    if (plan.triggers.response) out += ", 6 response";
+    if (plan.experiment->catch_share > 0) out += ", 253 red dot of a catch trial";
+    if (!plan.triggers.wait_for.empty()) out += ", 255 pulse of the scanner that begins the run";
+    return out;
+}
+
 std::string experiment_text(const BatchPlan& plan) {
     if (!plan.experiment) return {};
     const design::ExperimentOptions& experiment = *plan.experiment;
     std::vector<std::string> answers;
     for (const auto& [key, answer] : experiment.answers)
         answers.push_back("\"" + answer + "\" (" + key + ")");
-    using Method = design::ExperimentOptions::Method;
-    std::string course =
-        "Each clip was shown " +
-        (experiment.repetitions == 1 ? std::string("once")
-                                     : std::to_string(experiment.repetitions) + " times") +
-        " in random order";
-    if (experiment.method != Method::kConstant)
-        course = std::to_string(experiment.trials) + " trials of each threshold were chosen by " +
-                 (experiment.method == Method::kQuest
-                      ? "QUEST (82 % right, slope of the Weibull function 3.5)"
-                      : "a staircase (three right answers down, one wrong answer up)") +
-                 " over " + experiment.over;
+    std::string course = course_text(plan);
     if (experiment.blocks > 1) course += ", in " + std::to_string(experiment.blocks) + " blocks";
     if (experiment.practice > 0)
         course += ", after " + counted(experiment.practice, "practice trial", "practice trials");
@@ -273,19 +265,8 @@ std::string experiment_text(const BatchPlan& plan) {
            " s came before each. The question was \"" + experiment.question +
            "\", and the answers were " + joined(answers) +
            ". Codes of moments lasted whole refreshes of the screen, " +
-           format_number(plan.triggers.pulse_ms) + " ms at least.\n";
+           format_number(plan.triggers.pulse_ms) + " ms at least: " + codes_text(plan) + ".\n";
 }
-
-constexpr const char* kShinePaper = R"(@article{willenbockel2010,
-  author = {Willenbockel, V. and Sadr, J. and Fiset, D. and Horne, G. O. and Gosselin, F. and Tanaka, J. W.},
-  title = {Controlling low-level image properties: The {SHINE} toolbox},
-  journal = {Behavior Research Methods}, year = {2010}, volume = {42}, number = {3}, pages = {671--684}}
-)";
-constexpr const char* kGrammarPaper = R"(@article{yu2012,
-  author = {Yu, H. and Garrod, O. G. B. and Schyns, P. G.},
-  title = {Perception-driven facial expression synthesis},
-  journal = {Computers \& Graphics}, year = {2012}, volume = {36}, number = {3}, pages = {152--162}}
-)";
 
 }  // namespace
 
@@ -296,17 +277,15 @@ std::string methods_text(const BatchPlan& plan, const std::vector<Json>& records
         "[Participants: number, age, sex. Ethics approval and consent.]\n\n"
         "## Stimuli\n\n";
     for (const std::string& part :
-         {clips_text(plan), factors_text(plan), motion_text(records), luminance_part(plan, records),
-          controls_text(plan), sound_text(records)})
+         {clips_text(plan, records), factors_text(plan), motion_text(plan, records),
+          luminance_part(plan, records), controls_text(plan), sound_text(records)})
         if (!part.empty()) out += part + "\n";
     if (plan.experiment) out += "## Procedure\n\n" + experiment_text(plan) + "\n";
     out +=
         "[Screen: model, size, distance, refresh rate, luminance of white, calibration.]\n\n"
         "## References\n\n```bibtex\n@software{risorius, title = {Risorius}, version = {" +
         std::string(kVersion) + "}, note = {Simulated faces as stimuli}}\n";
-    if (plan.match.luminance && plan.match.luminance->has_maps()) out += kShinePaper;
-    if (!plan.samples.empty()) out += kGrammarPaper;
-    return out + "```\n";
+    return out + sources_text(plan) + "```\n";
 }
 
 std::string hed_tags(const ClipPlan& plan) {

@@ -5,12 +5,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "risorius/animate/landmark_run.h"
-#include "risorius/animate/run_render_job.h"
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
 #include "risorius/stimuli/detail/expression_script.h"
-#include "risorius/stimuli/detail/seen_motion.h"
+#include "risorius/stimuli/detail/known_motion.h"
 
 namespace risorius::stimuli {
 
@@ -29,7 +27,7 @@ animate::RenderJob job_of(const Json& script, const std::filesystem::path& folde
                           animate::RenderInputs& inputs) {
     animate::RenderRequest request;
     // Its relative paths start in the folder, so that the place must not look like a path.
-    std::string name = "script of" + place.substr(place.rfind(':') + 1);
+    std::string name = "script of" + place.substr(place.find(":/") + 1);
     std::replace(name.begin(), name.end(), '/', ' ');
     request.script = folder / name;
     request.script_in_memory = JsonCursor::from_json(script, request.script.string());
@@ -50,8 +48,14 @@ double MotionMatch::settled_mm(const Json& script, const std::filesystem::path& 
     const std::string key = json_text(*settled) + folder.string();
     if (const auto found = known_.find(key); found != known_.end()) return found->second;
     monitor_.throw_if_stopped();
-    return known_[key] = largest_way_mm(animate::settled_landmarks(
-               job_of(*settled, folder, quality_, place, inputs_), session_));
+    return known_[key] = settled_way_mm(job_of(*settled, folder, quality_, place, inputs_),
+                                        session_, [&] { report(place); });
+}
+
+void MotionMatch::report(const std::string& place) const {
+    const double done = static_cast<double>(begun_ - 1) / static_cast<double>(searches_);
+    monitor_.report(std::clamp(done, 0.0, 1.0),
+                    "equal motion: " + place.substr(place.find(":/") + 1));
 }
 
 double MotionMatch::Course::most_mm() const {
@@ -78,17 +82,15 @@ const MotionMatch::Course& MotionMatch::course_of(const Json& script,
     Course course;
     if (alone) {
         const animate::RenderJob job = job_of(*alone, folder, quality_, place, inputs_);
-        const animate::LandmarkFrames frames = animate::play_landmarks(job, session_, monitor_);
         course.fps = job.fps;
-        for (const Points& frame : frames.positions_mm)
-            course.way_mm.push_back(
-                largest_way_mm({frames.ids, {frames.positions_mm.front(), frame}}));
+        course.way_mm = course_mm(job, session_, monitor_, [&] { report(place); });
     }
     return courses_[key] = std::move(course);
 }
 
 double MotionMatch::time_for(double apex_s, const std::function<Json(double)>& script_at,
                              const std::filesystem::path& folder, const std::string& place) {
+    ++begun_;
     const auto course_at = [&](double time_s) -> const Course& {
         return course_of(script_at(time_s), folder, place);
     };
@@ -133,6 +135,7 @@ double MotionMatch::time_for(double apex_s, const std::function<Json(double)>& s
 
 double MotionMatch::intensity_for(double share, const std::function<Json(double)>& script_at,
                                   const std::filesystem::path& folder, const std::string& place) {
+    ++begun_;
     const double full_mm = settled_mm(script_at(1), folder, place);
     if (full_mm < kLeast_mm)
         throw Error(place,

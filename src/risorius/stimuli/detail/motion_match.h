@@ -9,12 +9,13 @@
 ///
 /// It also finds the duration T of a rise at which the movement is at its apex in a given frame: c(T), the time at which s of the course
 /// passes 99 % of its maximum, is solved by regula falsi for the middle of the time before that frame.
+///
+/// What was simulated is kept between runs, see known_motion.h.
 #pragma once
 
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,14 @@ namespace risorius::stimuli {
 
 class MotionMatch {
   public:
-    /// `quality`: that of the clips.
-    MotionMatch(std::string quality, animate::RenderInputs& inputs, ProgressMonitor monitor)
-        : quality_(std::move(quality)), inputs_(inputs), monitor_(std::move(monitor)) {}
+    /// `quality`: that of the clips. `searches`: how many will be asked for, for the progress; the monitor is told of those that are
+    /// not known from an earlier run.
+    MotionMatch(std::string quality, animate::RenderInputs& inputs, long searches,
+                ProgressMonitor monitor)
+        : quality_(std::move(quality)),
+          inputs_(inputs),
+          searches_(searches),
+          monitor_(std::move(monitor)) {}
 
     /// Returns the intensity, to 1e-4. `script_at`: the script at an intensity; `folder`: where its relative paths start. Throws Error
     /// naming `place` when the script has no expression, or when the share cannot be had.
@@ -53,9 +59,11 @@ class MotionMatch {
                             const std::string& place);
     double settled_mm(const Json& script, const std::filesystem::path& folder,
                       const std::string& place);
+    void report(const std::string& place) const;
 
     std::string quality_;
     animate::RenderInputs& inputs_;
+    long searches_, begun_ = 0;
     ProgressMonitor monitor_;
     animate::RenderSession session_;
     std::map<std::string, double> known_;

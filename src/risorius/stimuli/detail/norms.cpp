@@ -91,6 +91,23 @@ std::optional<double> intraclass(const std::vector<std::vector<double>>& table) 
     return (msr - mse) / spread;
 }
 
+/// Adds what a row of an experiment's data tells of red dots. A page writes several rows for a trial: "task" tells which.
+void add_catch(const std::vector<design::Given>& row, const std::string& kind, CatchTrials& out) {
+    const auto is_true = [&](const char* column) {
+        const std::string text = rating_cell(row, {column});
+        return text == "1" || text == "true";
+    };
+    const std::string task = rating_cell(row, {"task"});
+    const bool of_clip = task.empty() || task == "clip";
+    if (kind == "catch") {
+        out.trials += of_clip;
+        out.hits += is_true("correct");
+    } else if (kind == "trial") {
+        out.other_trials += of_clip;
+    }
+    if (kind == "catch" || kind == "trial") out.false_alarms += of_clip && is_true("false_alarm");
+}
+
 /// A scale by clips and those participants who gave it for all of them.
 std::vector<std::vector<double>> scale_table(const std::vector<Rating>& ratings,
                                              const std::string& scale) {
@@ -117,13 +134,18 @@ std::vector<std::vector<double>> scale_table(const std::vector<Rating>& ratings,
 double Share::low() const { return wilson(*this, -1); }
 double Share::high() const { return wilson(*this, 1); }
 
-std::vector<Rating> read_ratings(const std::filesystem::path& file,
-                                 const std::vector<std::string>& clips) {
+Ratings read_ratings(const std::filesystem::path& file, const std::vector<std::string>& clips) {
     const std::set<std::string> known(clips.begin(), clips.end());
-    std::vector<Rating> out;
+    Ratings out;
+    std::map<std::string, CatchTrials> dots;
+    bool any_dot = false;
     for (const auto& row : design::read_table(file, design::ColumnNames::kAny)) {
         Rating rating;
         rating.participant = rating_cell(row, {"participant"});
+        const std::string kind = rating_cell(row, {"kind"});
+        add_catch(row, kind, dots[rating.participant]);
+        any_dot = any_dot || kind == "catch";
+        if (kind == "practice" || kind == "catch") continue;
         rating.clip = rating_cell(row, {"stimulus_id", "stim_id"});
         rating.answer = rating_cell(row, {"answer", "response"});
         for (const design::Given& cell : row)
@@ -135,17 +157,19 @@ std::vector<Rating> read_ratings(const std::filesystem::path& file,
         if (rating.clip.empty() || (rating.answer.empty() && rating.scales.empty())) continue;
         if (known.count(rating.clip) == 0)
             throw Error(design::row_place(row), "a clip of the set", in_quotes(rating.clip));
-        out.push_back(std::move(rating));
+        out.given.push_back(std::move(rating));
     }
-    if (out.empty())
+    if (any_dot) out.catches = std::move(dots);
+    if (out.given.empty())
         throw Error(file.string(), "ratings with stimulus_id, and an answer or one of the scales",
                     "none");
     return out;
 }
 
-Norms norms_of(const std::vector<Rating>& ratings,
-               const std::map<std::string, std::string>& right) {
+Norms norms_of(const Ratings& all, const std::map<std::string, std::string>& right) {
+    const std::vector<Rating>& ratings = all.given;
     Norms out;
+    out.catches = all.catches;
     std::map<std::string, std::map<std::string, int>> counts;
     std::map<std::string, std::map<std::string, std::pair<double, int>>> scales;
     for (const Rating& one : ratings) {
@@ -206,12 +230,39 @@ Json Norms::json() const {
     }
     Json reliability = Json::object();
     for (const auto& [scale, value] : icc) reliability[scale] = value;
-    return json_object({{"format", "risorius-norms"},
-                        {"version", 1},
-                        {"clips", clips.size()},
-                        {"answers", answers},
-                        {"fleiss_kappa", kappa ? Json(*kappa) : Json()},
-                        {"icc_2_k", reliability}});
+    Json out = json_object({{"format", "risorius-norms"},
+                            {"version", 1},
+                            {"clips", clips.size()},
+                            {"answers", answers},
+                            {"fleiss_kappa", kappa ? Json(*kappa) : Json()},
+                            {"icc_2_k", reliability}});
+    if (catches.empty()) return out;
+    CatchTrials all;
+    for (const auto& [participant, of] : catches) {
+        all.trials += of.trials;
+        all.hits += of.hits;
+        all.other_trials += of.other_trials;
+        all.false_alarms += of.false_alarms;
+    }
+    const Share hits{.hits = all.hits, .count = all.trials};
+    out["catch"] = json_object({{"trials", all.trials},
+                                {"hits", all.hits},
+                                {"hit_rate", hits.value()},
+                                {"low", hits.low()},
+                                {"high", hits.high()},
+                                {"other_trials", all.other_trials},
+                                {"false_alarms", all.false_alarms}});
+    return out;
+}
+
+std::string Norms::catch_table() const {
+    if (catches.empty()) return {};
+    std::string out = "participant\tcatch_trials\thits\tother_trials\tfalse_alarms\n";
+    for (const auto& [participant, of] : catches)
+        out += catalogue_cell(Json(participant)) + "\t" + std::to_string(of.trials) + "\t" +
+               std::to_string(of.hits) + "\t" + std::to_string(of.other_trials) + "\t" +
+               std::to_string(of.false_alarms) + "\n";
+    return out;
 }
 
 std::string Norms::confusion_table() const {

@@ -5,6 +5,7 @@
 ///   norms/ratings.csv       the ratings as they were given
 ///   norms/norms.json        agreement, and hit rates of each answer
 ///   norms/confusion.tsv     how often each right answer got each answer
+///   norms/catch.tsv         with catch trials: how each participant answered their red dots
 ///
 /// Sources: hit rates that do not gain by a liking for an answer: Wagner 1993, Journal of Nonverbal Behavior 17(1), 3-28.
 /// Intervals: Wilson 1927, Journal of the American Statistical Association 22, 209-212. Agreement: Fleiss 1971, Psychological
@@ -27,10 +28,23 @@ struct Rating {
         scales;  ///< of valence, arousal, intensity and naturalness, those that were given
 };
 
-/// Reads ratings: columns participant, stimulus_id (or stim_id), answer (or response), and scales. Throws Error for clips outside of
-/// `clips`.
-std::vector<Rating> read_ratings(const std::filesystem::path& file,
-                                 const std::vector<std::string>& clips);
+/// How a participant answered the red dots of catch trials.
+struct CatchTrials {
+    int trials = 0, hits = 0;  ///< with a dot, and those in which it was answered
+    int other_trials = 0,
+        false_alarms = 0;  ///< without one, and times that a dot was answered where none was
+};
+
+/// What a table of ratings holds.
+struct Ratings {
+    std::vector<Rating> given;
+    std::map<std::string, CatchTrials>
+        catches;  ///< by participant; empty when no row is of a catch trial
+};
+
+/// Reads ratings: columns participant, stimulus_id (or stim_id), answer (or response), and scales. Rows whose column "kind" says
+/// "practice" are left out; rows of "catch" are no ratings, but tell of attention. Throws Error for clips outside of `clips`.
+Ratings read_ratings(const std::filesystem::path& file, const std::vector<std::string>& clips);
 
 /// A share of `count`, with its interval of 95 % by Wilson.
 struct Share {
@@ -54,14 +68,16 @@ struct Norms {
     std::optional<double> kappa;  ///< Fleiss; none with fewer than two ratings of a clip
     std::map<std::string, double>
         icc;  ///< ICC(2,k) of scales that several participants gave for all rated clips
+    std::map<std::string, CatchTrials> catches;  ///< by participant
 
     /// Hits squared / (times shown x times answered), for an answer.
     std::optional<double> unbiased_hit_rate(const std::string& answer) const;
     Json json() const;
     std::string confusion_table() const;
+    std::string catch_table() const;  ///< empty without catch trials
 };
 
 /// `right`: the right answer of each clip that has one.
-Norms norms_of(const std::vector<Rating>& ratings, const std::map<std::string, std::string>& right);
+Norms norms_of(const Ratings& ratings, const std::map<std::string, std::string>& right);
 
 }  // namespace risorius::stimuli

@@ -8,13 +8,79 @@ namespace {
 
 const char* const kCourse = R"py(
 
+class QuestPlus:
+    """QUEST+ (Watson 2017, Journal of Vision 17(3), 10): threshold, slope and lapses of a Weibull function are unknown. Each trial
+    shows the level, among those that there are, after whose answer least is expected to remain unknown (entropy). Levels are
+    in log10. `guess`: the share of right answers by chance."""
+
+    RIGHT = 0.82  # the threshold is where so many answers are right
+    SLOPES, LAPSES = (1, 1.5, 2, 3, 4.5, 7, 10), (0, 0.02, 0.05)
+
+    def __init__(self, levels, trials, guess):
+        self.levels, self.trials, self.data = levels, trials, []
+        low, high = levels[0] - 0.3, levels[-1] + 0.3
+        steps = max(20, round((high - low) / 0.025))
+        self.states = [
+            (low + (high - low) * step / steps, slope, lapse)
+            for step in range(steps + 1) for slope in self.SLOPES for lapse in self.LAPSES
+        ]
+        self.right = [
+            [1 - lapse - (1 - guess - lapse) * math.exp(-(10 ** (slope * (level - middle))))
+             for middle, slope, lapse in self.states]
+            for level in levels
+        ]
+        self.at_right = [
+            middle + math.log10(-math.log((1 - lapse - self.RIGHT) / (1 - guess - lapse))) / slope
+            for middle, slope, lapse in self.states
+        ]
+        self.belief = [1 / len(self.states)] * len(self.states)
+
+    def _unknown_after(self, right):
+        """The entropy that is expected after a trial."""
+        out = 0
+        for shares in (right, [1 - one for one in right]):
+            both = [share * belief for share, belief in zip(shares, self.belief)]
+            all_of_it = sum(both)
+            out += all_of_it * math.log(all_of_it) - sum(one * math.log(one) for one in both if one > 0)
+        return out
+
+    def __next__(self):
+        if len(self.data) >= self.trials:
+            raise StopIteration
+        unknown = [self._unknown_after(right) for right in self.right]
+        return self.levels[unknown.index(min(unknown))]
+
+    def addResponse(self, result, intensity):
+        self.data.append(result)
+        right = self.right[min(range(len(self.levels)), key=lambda at: abs(self.levels[at] - intensity))]
+        belief = [(share if result else 1 - share) * one for share, one in zip(right, self.belief)]
+        self.belief = [one / sum(belief) for one in belief]
+
+    def _mean(self, values):
+        return sum(value * one for value, one in zip(values, self.belief))
+
+    def mean(self):
+        return self._mean(self.at_right)
+
+    def sd(self):
+        middle = self.mean()
+        return math.sqrt(self._mean([(one - middle) ** 2 for one in self.at_right]))
+
+    def slope(self):
+        return self._mean([slope for _, slope, _ in self.states])
+
+    def lapse(self):
+        return self._mean([lapse for _, _, lapse in self.states])
+
+
 class Course:
     """Which clip each trial shows. The order is drawn by the seed.
 
     constant             every clip, `repetitions` times
-    staircase, quest     a threshold for each series of clips: from trial to trial the clip whose level is nearest to what the
+    the others           a threshold for each series of clips: from trial to trial the clip whose level is nearest to what the
                          method asks for. A staircase goes down after three right answers and up after a wrong one (79 % right);
-                         QUEST works in log10 of the level, with the slope of a Weibull function of 3.5 (82 % right)."""
+                         quest works in log10 of the level, with the slope of a Weibull function of 3.5 (82 % right); questplus
+                         finds slope and lapses too."""
 
     def __init__(self, settings, rows, chance):
         self.chance, self.method = chance, settings["method"]
@@ -47,6 +113,8 @@ class Course:
                 nDown=3, stepType="log", minVal=levels[0], maxVal=levels[-1],
             )
         low, high = math.log10(levels[0]), math.log10(levels[-1])
+        if self.method == "questplus":
+            return QuestPlus([math.log10(one) for one in sorted(set(levels))], settings["trials"], 1 / len(settings["answers"]))
         return data.QuestHandler(
             startVal=(low + high) / 2, startValSd=max(0.3, high - low), pThreshold=0.82, nTrials=settings["trials"],
             beta=3.5, delta=0.01, gamma=1 / len(settings["answers"]), grain=0.01, minVal=low, maxVal=high,
@@ -60,7 +128,7 @@ class Course:
             asked = next(self.handlers[slot["series"]])
         except StopIteration:
             return None
-        asked = asked if self.method == "quest" else math.log10(asked)
+        asked = math.log10(asked) if self.method == "staircase" else asked
         away = [(abs(math.log10(clip["level"]) - asked), clip) for clip in self.series[slot["series"]]]
         nearest = min(distance for distance, _ in away)
         return dict(self.chance.choice([clip for distance, clip in away if distance <= nearest + 0.03]))
@@ -68,7 +136,7 @@ class Course:
     def answered(self, slot, clip, correct):
         """Tells the method what was shown, which is not quite what it asked for, and how it was answered."""
         if "series" in slot:
-            shown = math.log10(clip["level"]) if self.method == "quest" else clip["level"]
+            shown = clip["level"] if self.method == "staircase" else math.log10(clip["level"])
             self.handlers[slot["series"]].addResponse(int(correct), intensity=shown)
 
     def thresholds(self):
@@ -76,13 +144,16 @@ class Course:
         for name, handler in self.handlers.items():
             if not len(handler.data):
                 continue
-            if self.method == "quest":
-                level, sd = 10 ** handler.mean(), f"{handler.sd():.4f}"
-            else:
+            if self.method == "staircase":
                 turns = handler.reversalIntensities[-6:]
                 level, sd = sum(turns) / len(turns) if turns else float("nan"), ""
-            out.append({"series": name, "method": self.method, "trials": len(handler.data), "threshold": f"{level:.4f}",
-                        "sd_log10": sd})
+            else:
+                level, sd = 10 ** handler.mean(), f"{handler.sd():.4f}"
+            row = {"series": name, "method": self.method, "trials": len(handler.data), "threshold": f"{level:.4f}",
+                   "sd_log10": sd}
+            if self.method == "questplus":
+                row.update(slope=f"{handler.slope():.3f}", lapse=f"{handler.lapse():.3f}")
+            out.append(row)
         return out
 
 
@@ -112,23 +183,28 @@ def show(screen, frames, codes, refreshes, heard, began, dot):
         heard.stop()
 
 
-def ask(screen, settings, keys, texts, catch):
-    """The answer after the clip, unless it came during the clip. Returns the key, and its time from the question."""
+def ask(screen, settings, keys, texts, dot_s):
+    """The answer after the clip, unless it came during the clip. `dot_s`: when the red dot of a catch trial came. Returns the key,
+    its time from the question, and whether the key for the dot was pressed without a dot."""
     answer_keys = [one["key"] for one in settings["answers"]]
+    catch = dot_s is not None
     during = [*(answer_keys if settings["answer_during"] and not catch else []), "escape"]
-    pressed = keys.read([*during, *([CATCH_KEY] if settings["catch"] else [])])
+    dot_key = [CATCH_KEY] if settings["catch"] else []
+    pressed = keys.read([*during, *dot_key])
+    alarms = [key for key in pressed if key.name == CATCH_KEY and (not catch or key.rt < dot_s)]
+    pressed = [key for key in pressed if key not in alarms]
     if catch:
-        return (pressed or keys.wait([CATCH_KEY, "escape"], CATCH_WAIT_S) or [None])[0], None
-    pressed = [key for key in pressed if key.name != CATCH_KEY]
+        return (pressed or keys.wait([CATCH_KEY, "escape"], CATCH_WAIT_S) or [None])[0], None, bool(alarms)
     if pressed:
-        return pressed[0], None
+        return pressed[0], None, bool(alarms)
     question_s = {}
     screen.window.callOnFlip(lambda: question_s.update(at=keys.board.clock.getTime()))
     screen.flip([texts["question"]])
     key = keys.wait([*answer_keys, "escape"])[0]
+    alarms += keys.read(dot_key) if dot_key else []
     if settings["response"] and key.name != "escape":
         screen.mark([], RESPONSE)
-    return key, key.rt - question_s["at"]
+    return key, key.rt - question_s["at"], bool(alarms)
 
 
 def run_trial(screen, settings, slot, clip, codes, refreshes, keys, texts, chance):
@@ -152,15 +228,16 @@ def run_trial(screen, settings, slot, clip, codes, refreshes, keys, texts, chanc
         keys.restart()
 
     catch = slot["kind"] == "catch"
-    dot = None
+    dot = dot_s = None
     if catch:  # anywhere in the middle of the clip, with a frame of its own for its code where there is one
         free = [number for number in range(len(frames)) if number not in codes] or [0]
         middle = [number for number in free if 0.2 * len(frames) <= number <= 0.8 * len(frames)] or free
         dot = {"drawn": texts["dot"], "from": chance.choice(middle) * refreshes}
+        dot_s = dot["from"] / screen.rate_hz
     show(screen, frames, codes, refreshes, heard, begin, dot)
     window.recordFrameIntervals = False
     intervals = list(window.frameIntervals)
-    key, reaction_s = ask(screen, settings, keys, texts, catch)
+    key, reaction_s, false_alarm = ask(screen, settings, keys, texts, dot_s)
     if key and key.name == "escape":
         return None
     if catch:
@@ -173,6 +250,7 @@ def run_trial(screen, settings, slot, clip, codes, refreshes, keys, texts, chanc
         "key": key.name if key else "",
         "answer": next((one["answer"] for one in settings["answers"] if key and one["key"] == key.name), ""),
         "correct": correct,
+        "false_alarm": int(false_alarm) if settings["catch"] else "",
         "reaction_s": "" if reaction_s is None else f"{reaction_s:.4f}",
         "response_time": f"{key.rt:.4f}" if key else "",
         "onset_s": f"{began['onset_s']:.4f}",
@@ -183,8 +261,8 @@ def run_trial(screen, settings, slot, clip, codes, refreshes, keys, texts, chanc
     }
 
 
-ADDED = ["key", "answer", "correct", "reaction_s", "response_time", "onset_s", "fixation_s", "codes", "dropped_refreshes",
-         "late_ms_max"]
+ADDED = ["key", "answer", "correct", "false_alarm", "reaction_s", "response_time", "onset_s", "fixation_s", "codes",
+         "dropped_refreshes", "late_ms_max"]
 
 
 def begin_block(screen, settings, keys, texts, before, block):
@@ -202,7 +280,8 @@ def begin_block(screen, settings, keys, texts, before, block):
 
 
 def run_trials(screen, settings, course, codes, refreshes, keys, texts, answers, options):
-    block = None
+    """All trials. Returns how the red dots were answered: a row for the table of results."""
+    block, dots = None, {"catch_trials": 0, "hits": 0, "other_trials": 0, "false_alarms": 0}
     for number, slot in enumerate(course.slots):
         if slot["block"] != block:
             begin_block(screen, settings, keys, texts, block, slot["block"])
@@ -218,6 +297,13 @@ def run_trials(screen, settings, course, codes, refreshes, keys, texts, answers,
         if added is None:
             break
         course.answered(slot, row, added["correct"] == 1)
+        if slot["kind"] == "catch":
+            dots["catch_trials"] += 1
+            dots["hits"] += added["correct"]
+        elif slot["kind"] == "trial":
+            dots["other_trials"] += 1
+        if settings["catch"] and slot["kind"] != "practice":
+            dots["false_alarms"] += added["false_alarm"]
         kind = " ".join(text for text in (clip["set"], clip["control"]) if text)
         place = {"trial": number, "block": slot["block"], "kind": slot["kind"]}
         answers.add(
@@ -226,13 +312,15 @@ def run_trials(screen, settings, course, codes, refreshes, keys, texts, answers,
                 "onset": added["onset_s"], "duration": f"{duration_s(clip):.4f}", "trial_type": kind,
                 "response_time": added["response_time"], "stimulus_id": f"stim-{clip['stim_id']}",
                 "stim_file": clip["stim_file"], **place,
-                "answer": added["answer"], "correct": added["correct"], "dropped": added["dropped_refreshes"],
+                "answer": added["answer"], "correct": added["correct"], "false_alarm": added["false_alarm"],
+                "dropped": added["dropped_refreshes"],
             },
             keys.pulses_s,
         )
         keys.pulses_s = []
         if slot["kind"] == "practice" and added["correct"] != "":
             screen.stay([texts["right" if added["correct"] else "wrong"]], FEEDBACK_S)
+    return [dots] if settings["catch"] else []
 
 
 def main():
@@ -286,8 +374,9 @@ def main():
     software = {"SoftwareName": "PsychoPy, with a program by Risorius", "OperatingSystem": os.sys.platform,
                 "RefreshRate": rate_hz}
     answers = Answers(options, settings, ["participant", "trial", "block", "kind", *rows[0], *ADDED], software)
-    run_trials(screen, settings, course, codes, refreshes, keys, texts, answers, options)
-    answers.thresholds(course.thresholds())
+    dots = run_trials(screen, settings, course, codes, refreshes, keys, texts, answers, options)
+    answers.table("catch", dots)
+    answers.table("thresholds", course.thresholds())
     window.close()
     core.quit()
 

@@ -249,7 +249,8 @@ class Answers:
             "block": "Number of the block, from 1; 0: practice",
             "kind": "trial, practice or catch",
             "answer": "Answer that the key stands for",
-            "correct": "1 if it is the right one",
+            "correct": "1 if it is the right one; in a catch trial, if the red dot was answered",
+            "false_alarm": "1 if the key for the red dot was pressed without one",
             "dropped": "Refreshes that the screen missed during the clip",
         }
         self.bids = csv.DictWriter(self.events, list(names), delimiter="\t", restval="n/a")
@@ -273,9 +274,10 @@ class Answers:
         self.bids.writerows(sorted(events, key=lambda one: float(one["onset"])))
         self.keep()
 
-    def thresholds(self, rows):
+    def table(self, name, rows):
+        """A table of results beside the data."""
         if rows:
-            with open(f"{self.stem}_thresholds.csv", "x", newline="", encoding="utf-8") as file:
+            with open(f"{self.stem}_{name}.csv", "x", newline="", encoding="utf-8") as file:
                 out = csv.DictWriter(file, list(rows[0]))
                 out.writeheader()
                 out.writerows(rows)

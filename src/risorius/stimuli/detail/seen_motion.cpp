@@ -107,11 +107,12 @@ struct Way {
     std::string landmark;
 };
 
-Way way_between(const std::vector<std::string>& ids, const Points& from, const Points& to,
-                const Points* twin_from, const Points* twin_to) {
+Way way_between(const std::vector<std::string>& ids, const LandmarkChoice& choice,
+                const Points& from, const Points& to, const Points* twin_from,
+                const Points* twin_to) {
     Way out;
     for (std::size_t i = 0; i < ids.size(); ++i) {
-        if (is_one_of(kSkull, ids[i]) || is_one_of(kNeck, ids[i])) continue;
+        if (is_one_of(kSkull, ids[i]) || is_one_of(kNeck, ids[i]) || !choice.has(ids[i])) continue;
         const auto row = static_cast<Eigen::Index>(i);
         Vec3 way = (to.row(row) - from.row(row)).transpose();
         if (twin_from) way -= (twin_to->row(row) - twin_from->row(row)).transpose();
@@ -162,9 +163,16 @@ void find_other_onsets(const animate::FrameRows& rows, const animate::LandmarkFr
 
 }  // namespace
 
+std::string LandmarkChoice::name() const {
+    std::string out;
+    if (ids_)
+        for (const std::string& id : *ids_) out += id + " ";
+    return out;
+}
+
 SeenMotion seen_motion(const animate::FrameRows& rows,
                        const std::optional<animate::LandmarkFrames>& twin,
-                       const std::vector<int>& order, int fps) {
+                       const std::vector<int>& order, int fps, const LandmarkChoice& choice) {
     SeenMotion out;
     const bool still =
         std::all_of(order.begin(), order.end(), [&](int frame) { return frame == order.front(); });
@@ -178,8 +186,8 @@ SeenMotion seen_motion(const animate::FrameRows& rows,
     Way farthest;
     for (const int frame : order) {
         const auto now = static_cast<std::size_t>(frame), then = static_cast<std::size_t>(first);
-        const Way way = way_between(landmarks.ids, q[then], q[now], twin ? &q_twin[then] : nullptr,
-                                    twin ? &q_twin[now] : nullptr);
+        const Way way = way_between(landmarks.ids, choice, q[then], q[now],
+                                    twin ? &q_twin[then] : nullptr, twin ? &q_twin[now] : nullptr);
         s.push_back(way.mm);
         if (way.mm > farthest.mm) farthest = way;
     }
@@ -194,15 +202,37 @@ SeenMotion seen_motion(const animate::FrameRows& rows,
     return out;
 }
 
+SeenMotion seen_together(const SeenMotion& a, const SeenMotion& b, const std::vector<int>& order,
+                         int fps) {
+    SeenMotion out = a;
+    out.full_mm = {};
+    out.onset = out.apex = out.offset = {};
+    out.velocity_peak_mm_s = {};
+    const SeenMotion& farther = b.seen_mm.value_or(0) > a.seen_mm.value_or(0) ? b : a;
+    out.landmark = farther.landmark;
+    out.way_mm.resize(std::max(a.way_mm.size(), b.way_mm.size()));
+    for (std::size_t t = 0; t < out.way_mm.size(); ++t)
+        out.way_mm[t] = std::max(t < a.way_mm.size() ? a.way_mm[t] : 0.0,
+                                 t < b.way_mm.size() ? b.way_mm[t] : 0.0);
+    const double most = farther.seen_mm.value_or(0);
+    const bool moves = most >= kNoMovement_mm;
+    if (moves || out.head_onset || out.blink_onset || out.gaze_onset)
+        out.seen_mm = most;
+    else
+        out.seen_mm = {};
+    if (moves) find_moments(out.way_mm, is_in_time_order(order), fps, out);
+    return out;
+}
+
 SeenPicture seen_picture(const animate::LandmarkFrames& frames,
                          const std::optional<animate::LandmarkFrames>& twin,
-                         std::optional<int> frame) {
+                         std::optional<int> frame, const LandmarkChoice& choice) {
     const std::vector<Points> q = without_head(frames, 0);
     std::vector<Points> q_twin;
     if (twin) q_twin = without_head(*twin, 0);
     std::vector<Way> ways;
     for (std::size_t now = 0; now < q.size(); ++now)
-        ways.push_back(way_between(frames.ids, q[0], q[now], twin ? &q_twin[0] : nullptr,
+        ways.push_back(way_between(frames.ids, choice, q[0], q[now], twin ? &q_twin[0] : nullptr,
                                    twin ? &q_twin[now] : nullptr));
     if (!frame) {
         double most = 0;
@@ -216,9 +246,9 @@ SeenPicture seen_picture(const animate::LandmarkFrames& frames,
     return {*frame, shown.mm, shown.landmark};
 }
 
-double largest_way_mm(const animate::LandmarkFrames& frames) {
+double largest_way_mm(const animate::LandmarkFrames& frames, const LandmarkChoice& choice) {
     const std::vector<Points> q = without_head(frames, 0);
-    return way_between(frames.ids, q[0], q[1], nullptr, nullptr).mm;
+    return way_between(frames.ids, choice, q[0], q[1], nullptr, nullptr).mm;
 }
 
 Json json_of(const SeenMotion& motion, std::optional<int> pixel_onset) {

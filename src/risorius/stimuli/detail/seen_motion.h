@@ -9,7 +9,9 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "risorius/animate/frame_rows.h"
@@ -17,6 +19,18 @@
 #include "risorius/core/json_cursor.h"
 
 namespace risorius::stimuli {
+
+/// Landmarks that are looked at; default: all of the face.
+class LandmarkChoice {
+  public:
+    LandmarkChoice() = default;
+    explicit LandmarkChoice(std::set<std::string> ids) : ids_(std::move(ids)) {}
+    bool has(const std::string& id) const { return !ids_ || ids_->count(id) > 0; }
+    std::string name() const;  ///< the ids, with spaces between them; empty for all
+
+  private:
+    std::optional<std::set<std::string>> ids_;
+};
 
 /// Frames are numbers of shown frames. None has a value in a clip that stands still.
 struct SeenMotion {
@@ -39,7 +53,12 @@ struct SeenMotion {
 /// when the script has none.
 SeenMotion seen_motion(const animate::FrameRows& rows,
                        const std::optional<animate::LandmarkFrames>& twin,
-                       const std::vector<int>& order, int fps);
+                       const std::vector<int>& order, int fps, const LandmarkChoice& choice = {});
+
+/// What is seen to move in a clip whose parts move as `a` and `b` do: the larger s of the two in each frame. What is not a matter of s
+/// is that of `a`.
+SeenMotion seen_together(const SeenMotion& a, const SeenMotion& b, const std::vector<int>& order,
+                         int fps);
 
 /// What a picture shows of a movement.
 struct SeenPicture {
@@ -52,10 +71,10 @@ struct SeenPicture {
 /// `twin` as above.
 SeenPicture seen_picture(const animate::LandmarkFrames& frames,
                          const std::optional<animate::LandmarkFrames>& twin,
-                         std::optional<int> frame);
+                         std::optional<int> frame, const LandmarkChoice& choice = {});
 
 /// Returns s of the second of two frames, mm.
-double largest_way_mm(const animate::LandmarkFrames& frames);
+double largest_way_mm(const animate::LandmarkFrames& frames, const LandmarkChoice& choice = {});
 
 /// Returns the measures for the sidecar; null where one does not exist. `pixel_onset`: the first frame whose pixels change.
 Json json_of(const SeenMotion& motion, std::optional<int> pixel_onset);

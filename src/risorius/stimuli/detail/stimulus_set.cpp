@@ -184,11 +184,11 @@ std::optional<Norms> write_norms(const BatchPlan& plan, const BatchOptions& opti
     if (options.norms.empty() && !fs::is_regular_file(options.out / kept, none)) return {};
     const ReadingFormerOutput former;
     const fs::path file = options.norms.empty() ? options.out / kept : options.norms;
-    std::vector<Rating> ratings = read_ratings(file, clip_names(plan));
-    Norms norms = norms_of(ratings, right_answers(plan));
+    Norms norms = norms_of(read_ratings(file, clip_names(plan)), right_answers(plan));
     write(kept, text_of_file(file));
     write("norms/norms.json", json_text(norms.json(), 2) + "\n");
     write("norms/confusion.tsv", norms.confusion_table());
+    if (!norms.catches.empty()) write("norms/catch.tsv", norms.catch_table());
     return norms;
 }
 

@@ -63,36 +63,40 @@ CodesOfClips codes_of_clips(const std::vector<ClipPlan>& clips, const design::De
     return out;
 }
 
+std::vector<Trigger> triggers_of(const Json& record, const CodesOfClips& codes) {
+    std::vector<Trigger> out;
+    const double fps = record.at("fps").get<double>();
+    const int frames = record.at("frames").get<int>();
+    std::map<int, std::string> taken;
+    const auto add = [&](const char* event, int code, const Json& at) {
+        if (at.is_null()) return;
+        const int frame = at.get<int>();
+        // A picture is one frame that is shown for longer.
+        const double time_s = frame == frames ? record.at("duration_s").get<double>() : frame / fps;
+        const auto [first, is_new] = taken.emplace(frame, event);
+        out.push_back({event, code, frame, time_s, is_new ? "" : first->second});
+    };
+    const auto own = codes.code_of.find(record.at("stim_id").get<std::string>());
+    add("clip_on", own == codes.code_of.end() ? 1 : own->second, 0);
+    if (record.contains("audio") && !record.at("audio").value("onset_s", Json()).is_null())
+        if (const int frame =
+                static_cast<int>(std::lround(record.at("audio").at("onset_s").get<double>() * fps));
+            frame >= 0 && frame < frames)
+            add("sound_onset", 5, frame);
+    add("movement_onset", 2, record.at("movement_onset_frame"));
+    add("apex", 3, record.at("apex_frame"));
+    add("clip_off", 4, record.at("frames"));
+    return out;
+}
+
 std::string triggers(const std::vector<Json>& records, const CodesOfClips& codes) {
     std::string out = "stim_id\tevent\tcode\tframe\ttime_s\tmerged_into\n";
-    for (const Json& one : records) {
-        const double fps = one.at("fps").get<double>();
-        const int frames = one.at("frames").get<int>();
-        // A picture is one frame that is shown for longer.
-        const auto time_s = [&](int frame) {
-            return frame == frames ? one.at("duration_s").get<double>() : frame / fps;
-        };
-        std::map<int, std::string> taken;
-        const auto row = [&](const char* event, int code, const Json& at) {
-            if (at.is_null()) return;
-            const int frame = at.get<int>();
-            const auto [first, is_new] = taken.emplace(frame, event);
-            out += one.at("stim_id").get<std::string>() + "\t" + event + "\t" +
-                   std::to_string(code) + "\t" + std::to_string(frame) + "\t" +
-                   format_number(time_s(frame)) + "\t" + (is_new ? kMissingCell : first->second) +
-                   "\n";
-        };
-        const auto own = codes.code_of.find(one.at("stim_id").get<std::string>());
-        row("clip_on", own == codes.code_of.end() ? 1 : own->second, 0);
-        if (one.contains("audio") && !one.at("audio").value("onset_s", Json()).is_null())
-            if (const int frame = static_cast<int>(
-                    std::lround(one.at("audio").at("onset_s").get<double>() * fps));
-                frame >= 0 && frame < frames)
-                row("sound_onset", 5, frame);
-        row("movement_onset", 2, one.at("movement_onset_frame"));
-        row("apex", 3, one.at("apex_frame"));
-        row("clip_off", 4, one.at("frames"));
-    }
+    for (const Json& one : records)
+        for (const Trigger& trigger : triggers_of(one, codes))
+            out += one.at("stim_id").get<std::string>() + "\t" + trigger.event + "\t" +
+                   std::to_string(trigger.code) + "\t" + std::to_string(trigger.frame) + "\t" +
+                   format_number(trigger.time_s) + "\t" +
+                   (trigger.merged_into.empty() ? kMissingCell : trigger.merged_into) + "\n";
     return out;
 }
 

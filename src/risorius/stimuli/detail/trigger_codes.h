@@ -26,8 +26,20 @@ struct CodesOfClips {
 /// Gives codes to the clips in their order. Throws Error for a parameter that no clip has, and when there are too few codes.
 CodesOfClips codes_of_clips(const std::vector<ClipPlan>& clips, const design::Design& design);
 
-/// Returns the table of all codes. `records`: sidecars. A moment that a clip does not have gets no row. Of several moments in one frame,
-/// the first has the code.
+/// A moment of a clip.
+struct Trigger {
+    std::string event;
+    int code = 0, frame = 0;
+    double time_s = 0;
+    std::string
+        merged_into;  ///< the moment of the same frame that has the code; empty: this one has it
+};
+
+/// Returns the moments of a clip, from its sidecar. A moment that the clip does not have is missing. Of several moments in one frame, the
+/// first has the code.
+std::vector<Trigger> triggers_of(const Json& record, const CodesOfClips& codes);
+
+/// Returns the table of all codes. `records`: sidecars.
 std::string triggers(const std::vector<Json>& records, const CodesOfClips& codes);
 
 }  // namespace risorius::stimuli

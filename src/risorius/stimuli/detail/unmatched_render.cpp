@@ -11,6 +11,7 @@
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/core/sha256.h"
+#include "risorius/media/luminance.h"
 #include "risorius/media/video_reader.h"
 #include "risorius/scene/face_oval.h"
 #include "risorius/stimuli/detail/picture_frame.h"
@@ -78,7 +79,7 @@ std::vector<float> weights_in_oval(const ClipPlan& plan, const animate::FrameRow
     std::vector<float> out = scene::FaceOval(std::move(border))
                                  .soft_pixels(picture.width_px, picture.height_px, kOvalRim);
     for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] *= static_cast<float>(picture.rgba[4 * i + 3]) / 255.0F;
+        out[i] *= static_cast<float>(media::opacity_of(picture, i));
     return out;
 }
 
@@ -88,7 +89,7 @@ std::vector<float> measured_weights(const ClipPlan& plan, const animate::FrameRo
         return weights_in_oval(plan, rows, frame, picture);
     std::vector<float> out(picture.rgba.size() / 4);
     for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = static_cast<float>(picture.rgba[4 * i + 3]) / 255.0F;
+        out[i] = static_cast<float>(media::opacity_of(picture, i));
     return out;
 }
 
@@ -114,6 +115,8 @@ void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker) {
     animate::RenderJob job = render_job_of(
         plan, video_file, {}, worker, picture ? std::optional<int>(picture->frame) : std::nullopt);
     job.view.background.transparent = job.video.alpha = true;
+    job.video.bits = 16;  // a map of small contrast stretches steps of bytes until they are seen
+    job.view.deep = job.view.show == render::Show::kSkin;
     media::VideoWriter video(video_file, job.video);
     const animate::RenderResult result = animate::run_render_job(
         job, worker.session, [&](const Image& image) { video.append(image); }, worker.monitor);

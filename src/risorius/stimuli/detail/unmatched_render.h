@@ -3,7 +3,7 @@
 /// An unmatched render: a condition as it was rendered, before its luminance is matched with that of the set. It is kept
 /// losslessly until all conditions are measured and the clips that use it are made:
 ///
-///   intermediate/NAME.mkv     the pictures, with a transparent background
+///   intermediate/NAME.mkv     the pictures, with 16 bits and a transparent background
 ///   intermediate/NAME.tsv     the table of frames, frame_table.h
 ///   intermediate/NAME.json    its inputs, how it was made and its luminance; it exists only when the others are complete
 ///

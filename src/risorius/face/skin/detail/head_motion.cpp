@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "risorius/face/head_pose.h"
 #include "risorius/geom/polyline.h"
 
 namespace risorius::face {
@@ -29,6 +30,10 @@ Rigid head_motion(const rig::Head& head, const track::Drive& drive) {
     motion.rotate(Eigen::AngleAxisd(-drive.at(Kinematic::kHeadRoll) * kRadPerDeg, Vec3::UnitZ()));
     motion.translate(-pivot);
     return motion;
+}
+
+Rigid head_pose(const rig::Head& head, const track::Drive& drive) {
+    return head_motion(head, drive);
 }
 
 Neck::Neck(const rig::Head& head)

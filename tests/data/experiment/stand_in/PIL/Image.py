@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 import pathlib
 
+import imageio
+
 
 def fromarray(frame):
     return frame
@@ -10,4 +12,5 @@ def open(file):  # noqa: A001, as the package names it
     data = pathlib.Path(file).read_bytes()
     if data[:8] != b"\x89PNG\r\n\x1a\n":
         raise ValueError(f"{file}: not a PNG file")
+    imageio.last = str(file)
     return data

@@ -3,6 +3,7 @@
 
     STAND_IN_OBSERVER=X     answers rightly with the chance of a Weibull function with 82 % at level X of conditions.csv
     STAND_IN_TR=S           a scanner that presses 5 each S seconds
+    STAND_IN_ALARMS=N       presses the space bar once in each Nth trial, although there is no red dot
 """
 import csv
 import math
@@ -45,6 +46,7 @@ class Keyboard:
         self.clock = clock
         self.asked, self.since_s, self.polled_s = None, 0.0, -1.0
         self.pulses = 0
+        self.checked = 0
 
     def clearEvents(self):
         pass
@@ -56,6 +58,11 @@ class Keyboard:
                 out.append(KeyPress("5", self.pulses * TR_S, self.clock))
             self.pulses += 1
         if waitRelease:
+            return out
+        if "space" in (keyList or []) and "escape" not in keyList and "STAND_IN_ALARMS" in os.environ:
+            self.checked += 1
+            if self.checked % int(os.environ["STAND_IN_ALARMS"]) == 0:
+                out.append(KeyPress("space", core.now_s, self.clock))
             return out
         names = [name for name in keyList or ["space"] if name not in ("escape", "5")]
         if names != self.asked or core.now_s - self.polled_s > 0.1:
