@@ -14,6 +14,7 @@
 #include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/face/diagnostics.h"
+#include "risorius/io/coarser_model.h"
 #include "risorius/io/write_usda.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/atomic_folder.h"

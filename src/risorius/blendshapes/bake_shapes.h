@@ -14,7 +14,7 @@
 #include "risorius/blendshapes/detail/shape_correctives.h"
 #include "risorius/core/json_cursor.h"
 #include "risorius/core/progress_monitor.h"
-#include "risorius/io/coarser_model.h"
+#include "risorius/io/level_error.h"
 
 namespace risorius::blendshapes {
 
