@@ -369,8 +369,11 @@ TEST_F(BakedShapes, AreFoundInLandmarksOverTime) {
         }
         table << "\n";
     }
-    const inverse::SolveReport solved = inverse::solve_activations(
-        {.rig = kAdult, .out = other.path() / "solved", .landmarks = other.path() / "seen.tsv"});
+    const inverse::SolveReport solved =
+        inverse::solve_activations({.rig = kAdult,
+                                    .out = other.path() / "solved",
+                                    .landmarks = other.path() / "seen.tsv",
+                                    .as = "muscles"});
     ASSERT_EQ(solved.solved.size(), 2u);
     EXPECT_TRUE(solved.sequence);
     EXPECT_EQ(solved.solved[0].highest, 0);

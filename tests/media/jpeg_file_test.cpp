@@ -58,6 +58,17 @@ TEST(JpegFile, ReadsBackWithinItsErrorAndIsSmallerThanPng) {
     EXPECT_EQ(fine.find("Lavc"), std::string::npos);  // no version of a library
 }
 
+// Godot 3 refuses other sampling factors than these.
+TEST(JpegFile, HasTheUsualSamplingFactors) {
+    const std::string bytes = jpeg_bytes(mottled(64), "skin");
+    const std::size_t frame = bytes.find("\xff\xc0");
+    ASSERT_NE(frame, std::string::npos);
+    EXPECT_EQ(bytes[frame + 9], 3);  // components: an identifier, the factors, a table each
+    EXPECT_EQ(bytes[frame + 11], '\x22');
+    EXPECT_EQ(bytes[frame + 14], '\x11');
+    EXPECT_EQ(bytes[frame + 17], '\x11');
+}
+
 TEST(JpegFile, TakesAnySizeButNone) {
     const Image image = mottled(17);
     EXPECT_GT(psnr_db(image, jpeg_bytes(image, "odd")), 35);

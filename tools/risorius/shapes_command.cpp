@@ -62,6 +62,11 @@ void print(const blendshapes::ShapesReport& report, const blendshapes::ShapesOpt
         if (!file.starts_with("obj/"))
             std::printf("%s: %.1f MB\n", (options.out / file).generic_string().c_str(),
                         1e-6 * static_cast<double>(bytes));
+    for (const auto& [file, error] : report.levels)
+        std::printf(
+            "%s: %ld triangles, surface within %.2f mm, shapes within %.2f mm RMS, %.2f at most\n",
+            file.c_str(), error.triangles, 1e3 * error.surface_m, 1e3 * error.shape_rms_m,
+            1e3 * error.shape_max_m);
     std::printf("report: %s\n", (options.out / "index.html").generic_string().c_str());
 }
 
@@ -175,6 +180,12 @@ void add_shapes(CLI::App& app) {
                      "Side of the picture of the skin in shapes.glb, in pixels (256 to 4096); "
                      "those of the other parts have half of it. Parts with pictures of the mesh "
                      "keep those. 0: plain colours")
+        ->capture_default_str();
+    command
+        ->add_option("--levels", options.levels,
+                     "Number of coarser levels of detail to write, 0 to 4: shapes_lod1.glb and so "
+                     "on, each with half the triangles of the one before, and the same shapes")
+        ->check(CLI::Range(0, blendshapes::kMaxLevels))
         ->capture_default_str();
     command->add_flag("--no-pictures", arguments->no_pictures,
                       "Write the accuracy report without pictures");

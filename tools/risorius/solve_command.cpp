@@ -87,7 +87,8 @@ void add_solve(CLI::App& app) {
     command->add_option(
         "--as", options.as,
         "What to find: \"units\" (few action units with few keys, single muscles only "
-        "for what no unit explains; of --landmarks) or \"muscles\". Default: muscles");
+        "for what no unit explains; of --landmarks) or \"muscles\". Default: units for "
+        "--landmarks, else muscles");
     command
         ->add_option(
             "--with", options.with,

@@ -2,6 +2,7 @@
 #include "risorius/blendshapes/bake_shapes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +14,7 @@
 #include "risorius/core/json_text.h"
 #include "risorius/core/known_names.h"
 #include "risorius/face/diagnostics.h"
+#include "risorius/io/coarser_model.h"
 #include "risorius/io/write_usda.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/atomic_folder.h"
@@ -111,7 +113,7 @@ bool wants(const ShapesOptions& options, const char* format) {
 
 // Writes the head for other programs, as glTF and as USD. Returns the names of the files.
 std::vector<std::string> write_models(const scene::RigFiles& files, const face::Face& face,
-                                      const ShapesOptions& options, const ShapesReport& report,
+                                      const ShapesOptions& options, ShapesReport& report,
                                       const std::filesystem::path& folder) {
     // Text is large, so it is written only on request.
     const bool glb = wants(options, "glb"),
@@ -127,6 +129,13 @@ std::vector<std::string> write_models(const scene::RigFiles& files, const face::
         written.emplace_back(name);
     };
     if (glb) write("shapes.glb", io::glb_bytes(model));
+    for (int level = 1; glb && level <= options.levels; ++level) {
+        io::MorphModel coarse = io::coarser_model(model, std::ldexp(1.0, -level));
+        coarse.extras["risorius"]["level"] = level;
+        const std::string name = "shapes_lod" + std::to_string(level) + ".glb";
+        report.levels.emplace_back(name, io::level_error(model, coarse));
+        write(name.c_str(), io::glb_bytes(coarse));
+    }
     if (usda) write("shapes.usda", io::usda_text(model));
     return written;
 }
@@ -225,6 +234,13 @@ Json ShapesReport::json() const {
     for (const MadeShape& made : shapes.list) list.push_back(shape_json(made, shapes.list));
     for (const auto& [shape, why] : left_out) left[shape] = why;
     for (const auto& [file, size] : sizes) bytes[file] = size;
+    Json coarser = Json::array();
+    for (const auto& [file, error] : levels)
+        coarser.push_back(json_object({{"file", file},
+                                       {"triangles", error.triangles},
+                                       {"surface_mm", 1e3 * error.surface_m},
+                                       {"shape_rms_mm", 1e3 * error.shape_rms_m},
+                                       {"shape_max_mm", 1e3 * error.shape_max_m}}));
     return json_object({{"format", "risorius-shapes-certificate"},
                         {"version", 1},
                         {"name", name},
@@ -245,6 +261,7 @@ Json ShapesReport::json() const {
                         {"linear_rig", tracks_json(tracks)},
                         {"correctives", correctives_json(correctives)},
                         {"left_out", left},
+                        {"levels", coarser},
                         {"bytes", bytes}});
 }
 
@@ -256,6 +273,9 @@ ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& mo
         throw Error(option_name("texture_px"),
                     "0 or " + std::to_string(kMin_px) + ".." + std::to_string(kMax_px),
                     std::to_string(options.texture_px));
+    if (options.levels < 0 || options.levels > kMaxLevels)
+        throw Error(option_name("levels"), "0.." + std::to_string(kMaxLevels),
+                    std::to_string(options.levels));
     const scene::RigFiles files = scene::read_rig_files(options.rig, monitor.stopped);
     const ShapeSet set = shape_set(files.rig, options.set, options.only, files.place());
     report::AtomicFolder folder(options.out);

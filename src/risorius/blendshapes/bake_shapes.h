@@ -14,8 +14,11 @@
 #include "risorius/blendshapes/detail/shape_correctives.h"
 #include "risorius/core/json_cursor.h"
 #include "risorius/core/progress_monitor.h"
+#include "risorius/io/level_error.h"
 
 namespace risorius::blendshapes {
+
+inline constexpr int kMaxLevels = 4;
 
 /// Options of bake_shapes().
 struct ShapesOptions {
@@ -29,6 +32,8 @@ struct ShapesOptions {
     /// Side of the picture of the skin in the .glb, 256 to 4096; those of the other parts have half of it. 0: plain colours.
     /// Parts with pictures of the mesh keep those.
     int texture_px = 1024;
+    /// Number of coarser levels of detail to write, 0 to kMaxLevels; each has half the triangles of the one before
+    int levels = 0;
     bool pictures = true;
     bool correctives = true;
     bool named_correctives = false;  ///< CorrectiveOptions::named
@@ -56,6 +61,8 @@ struct ShapesReport {
     std::vector<TrackError> tracks;           ///< errors of the blend shapes against the simulation
     std::optional<ShapeAnimation> animation;  ///< the script converted to weights
     std::vector<std::pair<std::string, std::string>> left_out;  ///< name and reason
+    /// Coarser levels of detail: file, and its error against shapes.glb
+    std::vector<std::pair<std::string, io::LevelError>> levels;
     int vertices = 0, nodes = 0;
     double solving_s = 0;                             ///< wall time
     std::vector<std::pair<std::string, long>> sizes;  ///< file, bytes

@@ -44,6 +44,8 @@ ShapesOfFile read_shapes_of_file(const std::filesystem::path& file, const scene:
         vertices != head.vertices.rows())
         extras.at("vertices")
             .fail("the " + std::to_string(head.vertices.rows()) + " vertices of the rig's mesh");
+    if (const auto level = extras.find("level"))
+        level->fail("the file shapes.glb, which has all vertices", "a coarser level of detail");
     ShapesOfFile out;
     out.set = extras.at("set").string();
 

@@ -109,6 +109,13 @@ void measure(const face::Face& face, const Points& given, const Eigen::VectorXd&
     out.highest = out.drive.excitation.cwiseAbs().maxCoeff();
 }
 
+face::StaticOptions accurate(const ProgressMonitor& monitor) {
+    return {.iterations = kIterations,
+            .tolerance_m = kTolerance_m,
+            .planes_m = kTolerance_m,
+            .stopped = monitor.stopped};
+}
+
 class Solver {
   public:
     Solver(const SolveOptions& options, const scene::RigFiles& files, const FitTarget& given,
@@ -170,10 +177,7 @@ class Solver {
         fit.l1_weight = options_.l1_weight;
         fit.l2_weight = options_.l2_weight;
         fit.min_gain = 3e-3;
-        fit.rest = {.iterations = kIterations,
-                    .tolerance_m = kTolerance_m,
-                    .planes_m = kTolerance_m,
-                    .stopped = monitor.stopped};
+        fit.rest = accurate(monitor);
         return fit;
     }
     std::unique_ptr<face::Face> at_rest() const {
@@ -208,7 +212,7 @@ Json channels_of(const std::vector<UnitCurve>& curves) {
         for (const track::Key& key : curve.keys)
             keys.push_back({std::round(1e6 * key.time_s) / 1e6, std::round(1e4 * key.value) / 1e4});
         out[curve.channel] =
-            json_object({{"keys", keys}, {"interpolation", "linear"}, {"activation", true}});
+            json_object({{"keys", keys}, {"interpolation", "smooth"}, {"activation", true}});
     }
     return out;
 }
@@ -271,7 +275,7 @@ bool solves_units(const SolveOptions& options) {
     if (!options.as.empty()) index_of_name(option_name("as"), options.as, {"units", "muscles"});
     for (const std::string& one : options.with)
         index_of_name(option_name("with"), one, {"pressure", "tongue"});
-    const bool out = options.as == "units";
+    const bool out = options.as.empty() ? sequence : options.as == "units";
     if (out && !sequence)
         throw Error(option_name("as"), "\"muscles\" for shapes, or " + option_name("landmarks"),
                     "\"units\"");
@@ -280,20 +284,41 @@ bool solves_units(const SolveOptions& options) {
     return out;
 }
 
-void solve_as_units(face::Face& face, const scene::RigFiles& files, const FitTarget& given,
-                    const SolveOptions& options, const ProgressMonitor& monitor,
-                    SolveReport& report) {
+/// Every landmark of the rig by the vertex that it rides on, and the largest motion of each by any of the ways.
+std::vector<double> largest_motions(const scene::LandmarkPoints& points,
+                                    const std::vector<int>& vertices, const Eigen::MatrixXd& ways) {
+    std::vector<double> out;
+    for (const std::string& id : points.ids()) {
+        const auto row = std::find(vertices.begin(), vertices.end(), points.vertex(id));
+        const long first = 3 * (row - vertices.begin());
+        out.push_back(ways.middleRows<3>(first).colwise().norm().maxCoeff());
+    }
+    return out;
+}
+
+/// Solves landmarks over time as units.
+FitTarget solve_as_units(face::FaceTeam& team, const scene::RigFiles& files,
+                         const SolveOptions& options, const ProgressMonitor& monitor,
+                         SolveReport& report) {
     const auto with = [&](const char* what) {
         return std::find(options.with.begin(), options.with.end(), what) != options.with.end();
     };
-    UnitSolveOptions how;
-    how.pressure = with("pressure");
-    how.tongue = with("tongue");
-    how.rest = {.iterations = kIterations,
-                .tolerance_m = kTolerance_m,
-                .planes_m = kTolerance_m,
-                .stopped = monitor.stopped};
-    UnitSolution found = solve_units(face, files, given, how, monitor);
+    const rig::Head& head = team.first().head();
+    const UnitSources sources(files, with("pressure"), with("tongue"));
+    const scene::LandmarkPoints points(head, files.rig);
+    std::vector<int> vertices;
+    for (const std::string& id : points.ids()) vertices.push_back(points.vertex(id));
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    const UnitBench bench(team, sources, vertices);
+    UnitState rest = bench.rest(files, options.quality, monitor.subrange(0, 0.3));
+    const FitTarget given =
+        given_landmarks(options.landmarks, options.fps, points,
+                        largest_motions(points, vertices, rest.way), head.vertices.rows());
+    UnitSolution found = solve_units(bench, given, std::move(rest), {}, monitor.subrange(0.3, 1));
+    if (found.curves.empty())
+        throw Error(options.landmarks.string(), "landmarks that move as an action unit does",
+                    "none that does");
     for (std::size_t t = 0; t < given.fields.size(); ++t) {
         SolvedDrive& one = report.solved.emplace_back();
         one.name = given.names[t];
@@ -306,9 +331,30 @@ void solve_as_units(face::Face& face, const scene::RigFiles& files, const FitTar
         one.simulated = found.simulated[t];
     }
     report.curves = std::move(found.curves);
-    if (report.curves.empty())
-        throw Error(options.landmarks.string(), "landmarks that move as an action unit does",
-                    "none that does");
+    return given;
+}
+
+/// Reads landmarks for a search for muscles.
+FitTarget landmarks_for_muscles(face::Face& face, const scene::RigFiles& files,
+                                const SolveOptions& options) {
+    // Largest displacement of each landmark by any of the unknowns
+    const scene::LandmarkPoints points(face.head(), files.rig);
+    const track::Drive rest = nothing(files.rig.channels());
+    face.start([&](double) { return rest; });
+    face.solve_equilibrium(rest.excitation, rest);
+    std::vector<int> columns;
+    for (const ActivationUnknown& unknown : activation_unknowns(files.rig, rest, true))
+        columns.insert(columns.end(), unknown.columns.begin(), unknown.columns.end());
+    const std::vector<Points> ways =
+        face.statics().sensitivities(columns, std::array{Kinematic::kJawOpen});
+    std::vector<double> max_m;
+    for (const std::string& id : points.ids()) {
+        double max = 0;
+        for (const Points& way : ways) max = std::max(max, way.row(points.vertex(id)).norm());
+        max_m.push_back(max);
+    }
+    return given_landmarks(options.landmarks, options.fps, points, max_m,
+                           face.head().vertices.rows());
 }
 
 }  // namespace
@@ -367,32 +413,22 @@ SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor
     const scene::RigFiles files = scene::read_rig_files(options.rig, monitor.stopped);
     report::AtomicFolder folder(options.out);
     monitor.report(0, "building the face");
-    face::Face face(files.rig, files.mesh, face::quality_named(options.quality), files.place());
+    const auto build = [&] {
+        return face::Face(files.rig, files.mesh, face::quality_named(options.quality),
+                          files.place());
+    };
+    face::Face face = build();
+    SolveReport report;
     FitTarget given;
-    if (!options.landmarks.empty()) {
-        // Largest displacement of each landmark by any of the unknowns
-        const scene::LandmarkPoints points(face.head(), files.rig);
-        const track::Drive rest = nothing(files.rig.channels());
-        face.start([&](double) { return rest; });
-        face.solve_equilibrium(rest.excitation, rest);
-        std::vector<int> columns;
-        for (const ActivationUnknown& unknown : activation_unknowns(files.rig, rest, true))
-            columns.insert(columns.end(), unknown.columns.begin(), unknown.columns.end());
-        const std::vector<Points> ways =
-            face.statics().sensitivities(columns, std::array{Kinematic::kJawOpen});
-        std::vector<double> max_m;
-        for (const std::string& id : points.ids()) {
-            double max = 0;
-            for (const Points& way : ways) max = std::max(max, way.row(points.vertex(id)).norm());
-            max_m.push_back(max);
-        }
-        given = given_landmarks(options.landmarks, options.fps, points, max_m,
-                                face.head().vertices.rows());
+    if (as_units) {
+        face::FaceTeam team(face, build, options.threads);
+        given = solve_as_units(team, files, options, monitor, report);
+    } else if (!options.landmarks.empty()) {
+        given = landmarks_for_muscles(face, files, options);
     } else {
         given = options.meshes.empty() ? given_shapes(options.shapes, options.only, files, face)
                                        : given_meshes(options.meshes, files, face, monitor.stopped);
     }
-    SolveReport report;
     report.name = files.rig.name;
     report.rig = options.rig.generic_string();
     report.given = (!options.shapes.empty()   ? options.shapes
@@ -403,9 +439,7 @@ SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor
     report.points = static_cast<int>((given.weight.array() > 0).count());
     report.channels = files.rig.channels();
     report.notes = given.notes;
-    if (as_units) {
-        solve_as_units(face, files, given, options, monitor, report);
-    } else {
+    if (!as_units) {
         const std::vector<ActivationUnknown> unknowns =
             unknowns_of(files, face.head(), given.weight);
         const Solver solver(options, files, given, unknowns);

@@ -39,7 +39,7 @@ struct SolveOptions {
     std::vector<std::string> only = {};    ///< names in `shapes`; empty: all
     std::string quality = "preview";
     double l1_weight = 2e-4, l2_weight = 2e-4, temporal_weight = 2e-2;
-    /// "units" (sequences only) or "muscles"; empty: muscles
+    /// "units" (sequences only) or "muscles"; empty: units for sequences, else muscles
     std::string as = {};
     std::vector<std::string> with =
         {};        ///< "pressure" (in the mouth), "tongue": used by units only if they are named

@@ -4,24 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
 
 #include "risorius/core/error.h"
 #include "risorius/io/detail/gltf_packer.h"
+#include "risorius/io/detail/part_vertices.h"
 #include "risorius/io/morph_model.h"
 
 namespace risorius::io {
 
 namespace {
 
-// Change of a normal at the usual weight: three degrees are not visible, and four hardly
-constexpr double kNoTurn = 0.052, kNoTurnCompact = 0.07;
+// Change of a normal at the usual weight: three degrees are not visible, four and a half hardly; of correctives, whose weights are
+// smaller in most frames, six
+constexpr double kNoTurn = 0.052, kNoTurnCompact = 0.08, kNoTurnOfCorrective = 0.105;
 constexpr double kMaxWhole = 32767, kMaxShare = 65535;  // of 16 bits, with and without a sign
+constexpr double kMaxByte = 127;                        // of 8 bits, with a sign
 
 using detail::Floats;
+using detail::PartVertices;
 using Packer = detail::GltfPacker;
 using detail::value_of;
 
@@ -65,41 +68,6 @@ std::vector<T> whole(const Floats& values, double unit) {
     return out;
 }
 
-// The vertices of a part: one for every vertex of the model that it uses, and one more for every further texture coordinate
-// there.
-struct PartVertices {
-    std::vector<int> vertex;  ///< index in the model
-    std::vector<std::array<double, 2>> texcoord;
-    std::vector<unsigned> corner;  ///< 3F
-
-    explicit PartVertices(const MorphPart& part) {
-        using Key = std::pair<int, std::array<double, 2>>;
-        const bool mapped = part.texcoords.rows() > 0;
-        std::map<Key, unsigned> index;
-        const auto key = [&](long c) {
-            const std::array<double, 2> at =
-                mapped ? std::array{part.texcoords(c, 0), part.texcoords(c, 1)}
-                       : std::array{0.0, 0.0};
-            return Key{part.triangles(c / 3, c % 3), at};
-        };
-        const long corners = 3 * part.triangles.rows();
-        for (long c = 0; c < corners; ++c) index.emplace(key(c), 0);
-        for (auto& [at, number] : index) {
-            number = static_cast<unsigned>(vertex.size());
-            vertex.push_back(at.first);
-            texcoord.push_back(at.second);
-        }
-        for (long c = 0; c < corners; ++c) corner.push_back(index.at(key(c)));
-    }
-    unsigned count() const { return static_cast<unsigned>(vertex.size()); }
-    Floats gather(const Points& of) const {
-        Floats out;
-        for (const int v : vertex)
-            for (int k = 0; k < 3; ++k) out.push_back(static_cast<float>(of(v, k)));
-        return out;
-    }
-};
-
 /// Dense fields of a target, indexed by vertex.
 struct TargetFields {
     Points delta, turn;
@@ -108,10 +76,11 @@ struct TargetFields {
         for (std::size_t i = 0; i < target.vertex.size(); ++i)
             delta.row(target.vertex[i]) = target.delta.row(static_cast<long>(i));
         turn = vertex_normals(model, model.vertices + delta) - normals;
+        const double least = !model.whole_numbers       ? kNoTurn
+                             : target.usual_weight == 1 ? kNoTurnCompact
+                                                        : kNoTurnOfCorrective;
         for (long v = 0; v < turn.rows(); ++v)
-            if (target.usual_weight * turn.row(v).norm() <
-                (model.whole_numbers ? kNoTurnCompact : kNoTurn))
-                turn.row(v).setZero();
+            if (target.usual_weight * turn.row(v).norm() < least) turn.row(v).setZero();
     }
 };
 
@@ -332,16 +301,16 @@ class GlbWriter {
         primitive.material = material(part);
         primitive.indices = packer_.indices(own.corner, own.count());
         constexpr int kVertexData = TINYGLTF_TARGET_ARRAY_BUFFER;
-        const auto vectors = [&](const Points& of, bool with_range, double unit, bool normalized) {
-            const Floats values = own.gather(of);
-            if (unit_ == 0)
-                return packer_.floats(values, TINYGLTF_TYPE_VEC3, with_range, kVertexData);
-            return packer_.shorts(whole<short>(values, unit), 3, normalized, with_range);
-        };
         const Points places = model_.vertices.rowwise() -
                               nodes_[static_cast<std::size_t>(part.node)].place.transpose();
-        primitive.attributes["POSITION"] = vectors(places, true, unit_, false);
-        primitive.attributes["NORMAL"] = vectors(normals_, false, 1 / kMaxWhole, true);
+        const Floats at = own.gather(places), normals = own.gather(normals_);
+        primitive.attributes["POSITION"] =
+            unit_ == 0 ? packer_.floats(at, TINYGLTF_TYPE_VEC3, true, kVertexData)
+                       : packer_.integers(whole<short>(at, unit_), 3, false, true);
+        primitive.attributes["NORMAL"] =
+            unit_ == 0
+                ? packer_.floats(normals, TINYGLTF_TYPE_VEC3, false, kVertexData)
+                : packer_.integers(whole<signed char>(normals, 1 / kMaxByte), 3, true, false);
         primitive.attributes["_VERTEX"] = packer_.floats(
             Floats(own.vertex.begin(), own.vertex.end()), TINYGLTF_TYPE_SCALAR, false, kVertexData);
         if (part.texcoords.rows() > 0) {
@@ -353,8 +322,8 @@ class GlbWriter {
             const auto [low, high] = std::minmax_element(coordinates.begin(), coordinates.end());
             primitive.attributes["TEXCOORD_0"] =
                 unit_ > 0 && *low >= 0 && *high <= 1
-                    ? packer_.shorts(whole<unsigned short>(coordinates, 1 / kMaxShare), 2, true,
-                                     false)
+                    ? packer_.integers(whole<unsigned short>(coordinates, 1 / kMaxShare), 2, true,
+                                       false)
                     : packer_.floats(coordinates, TINYGLTF_TYPE_VEC2, false, kVertexData);
         }
         if (part.tint.rows() > 0) {
@@ -369,15 +338,17 @@ class GlbWriter {
         return primitive;
     }
 
-    /// The joints of each vertex, and their shares in 65535ths, which sum to 1.
+    /// The joints of each vertex, and their shares, which sum to 1: in 65535ths, of whole numbers in 255ths.
     void add_joints(const PartVertices& own, tinygltf::Primitive& primitive) {
-        std::vector<unsigned char> joints;
+        const long all = unit_ > 0 ? 255 : 65535;
+        std::vector<unsigned char> joints, small;
         std::vector<unsigned short> shares;
         for (const int v : own.vertex) {
             const Eigen::RowVectorXd weights = model_.skin.weights.row(v);
-            long left = 65535, largest = 0;
+            long left = all, largest = 0;
             for (long j = 0; j < 4; ++j) {
-                const long share = j < weights.size() ? std::lround(65535 * weights[j]) : 0;
+                const long share =
+                    j < weights.size() ? std::lround(static_cast<double>(all) * weights[j]) : 0;
                 joints.push_back(static_cast<unsigned char>(share > 0 ? j : 0));
                 shares.push_back(static_cast<unsigned short>(share));
                 left -= share;
@@ -387,13 +358,15 @@ class GlbWriter {
             most = static_cast<unsigned short>(most + left);
         }
         primitive.attributes["JOINTS_0"] = packer_.quadruples(joints, false);
-        primitive.attributes["WEIGHTS_0"] = packer_.quadruples(shares, true);
+        if (unit_ > 0) small.assign(shares.begin(), shares.end());
+        primitive.attributes["WEIGHTS_0"] =
+            unit_ > 0 ? packer_.quadruples(small, true) : packer_.quadruples(shares, true);
     }
 
     void add_targets() {
         unsigned most = 0;
         for (const PartVertices& part : vertices_) most = std::max(most, part.count());
-        if (!model_.targets.empty() && most > 0) packer_.make_zeros(most);
+        if (!model_.targets.empty() && most > 0 && unit_ == 0) packer_.make_zeros(most);
         std::vector<PartTargets> targets;
         for (const PartVertices& part : vertices_) targets.emplace_back(packer_, part, unit_);
         for (std::size_t t = 0; t < model_.targets.size(); ++t) {
@@ -441,7 +414,11 @@ class GlbWriter {
             tinygltf::AnimationSampler sampler;
             sampler.interpolation = "LINEAR";
             sampler.input = input;
-            sampler.output = packer_.floats(values, type, false);
+            const bool within = std::all_of(values.begin(), values.end(),
+                                            [](float value) { return value >= 0 && value <= 1; });
+            sampler.output = unit_ > 0 && type == TINYGLTF_TYPE_SCALAR && within
+                                 ? packer_.shares(whole<unsigned short>(values, 1 / kMaxShare))
+                                 : packer_.floats(values, type, false);
             tinygltf::AnimationChannel channel;
             channel.sampler = static_cast<int>(made.samplers.size());
             channel.target_node = node;

@@ -13,19 +13,31 @@ namespace {
 
 using namespace detail;
 
-/// Y, Cb and Cr with full range, as JFIF has them (ITU-T T.871, BT.601).
+/// Y, Cb and Cr with full range, as JFIF has them (ITU-T T.871, BT.601). Colour is that of two by two pixels: without this, libavcodec
+/// writes a kind of JPEG that some readers do not know (Godot 3).
 void put_ycc(const Image& image, AVFrame& frame) {
     const auto byte = [](double value) {
         return static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
     };
-    for (int y = 0; y < image.height_px; ++y)
-        for (int x = 0; x < image.width_px; ++x) {
-            const std::uint8_t* const rgb = image.pixel(x, y);
-            const double r = rgb[0], g = rgb[1], b = rgb[2];
-            const double luma = 0.299 * r + 0.587 * g + 0.114 * b;
-            const double value[] = {luma, 128 + (b - luma) / 1.772, 128 + (r - luma) / 1.402};
-            for (int c = 0; c < 3; ++c)
-                frame.data[c][std::ptrdiff_t{y} * frame.linesize[c] + x] = byte(value[c]);
+    const auto put = [&](int plane, int x, int y, double value) {
+        frame.data[plane][std::ptrdiff_t{y} * frame.linesize[plane] + x] = byte(value);
+    };
+    const auto luma = [](double r, double g, double b) {
+        return 0.299 * r + 0.587 * g + 0.114 * b;
+    };
+    for (int y = 0; y < image.height_px; y += 2)
+        for (int x = 0; x < image.width_px; x += 2) {
+            double sum[3] = {0, 0, 0}, count = 0;
+            for (int v = y; v < std::min(y + 2, image.height_px); ++v)
+                for (int u = x; u < std::min(x + 2, image.width_px); ++u) {
+                    const std::uint8_t* const rgb = image.pixel(u, v);
+                    put(0, u, v, luma(rgb[0], rgb[1], rgb[2]));
+                    for (int c = 0; c < 3; ++c) sum[c] += rgb[c];
+                    ++count;
+                }
+            const double r = sum[0] / count, g = sum[1] / count, b = sum[2] / count;
+            put(1, x / 2, y / 2, 128 + (b - luma(r, g, b)) / 1.772);
+            put(2, x / 2, y / 2, 128 + (r - luma(r, g, b)) / 1.402);
         }
 }
 
@@ -48,7 +60,7 @@ std::string jpeg_bytes(const Image& image, const std::string& name, int quantize
     codec->thread_count = 1;
     codec->width = frame->width = image.width_px;
     codec->height = frame->height = image.height_px;
-    codec->pix_fmt = AV_PIX_FMT_YUVJ444P;
+    codec->pix_fmt = AV_PIX_FMT_YUVJ420P;
     codec->color_range = frame->color_range = AVCOL_RANGE_JPEG;
     frame->format = codec->pix_fmt;
     codec->time_base = {1, 1};

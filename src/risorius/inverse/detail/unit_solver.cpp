@@ -3,449 +3,393 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
+#include <utility>
 
-#include "risorius/blendshapes/shape_player.h"
-#include "risorius/face/statics.h"
-#include "risorius/motion/reduce_keys.h"
-#include "risorius/rig/expression_drive.h"
-#include "risorius/solve/box_quadratic.h"
+#include "risorius/inverse/detail/joint_keys.h"
+#include "risorius/inverse/detail/unit_choice.h"
 
 namespace risorius::inverse {
 
 namespace {
 
-using blendshapes::ShapeGoal;
-using track::Kinematic;
-
-constexpr double kRidge = 1e-6;  // of the squared weights, relative to the squares of the target
-constexpr double kPrice =
-    4e-4;  // of a weight of 1 while units are sought; that of muscles is larger
-constexpr double kMusclePrice = 4;     // relative to units
-constexpr double kSmallPrice = 1e-5;   // of those that are kept
+constexpr double kSmallPrice = 1e-5;   // of a weight of 1, so that units that do nothing rest
 constexpr double kLeastWeight = 0.03;  // what stays below is left out
-constexpr double kStill =
-    1e-4;  // a frame with smaller squares, relative to the largest, is at rest
-constexpr double kLongestStep = 0.4, kShortestStep = 0.02;
-constexpr double kSecant = 0.1;      // change of a weight over which its effect is taken
-constexpr double kKeep = 2e-4;       // of squared differences from the weights that are expected
-constexpr double kLeastGain = 0.02;  // of the cost in a round; with less the search ends
-constexpr int kSeekingRounds = 6, kKeptRounds = 3;
-
-/// A unit or muscle: one side, or both.
-struct Candidate {
-    std::string name;
-    std::vector<std::size_t> goals;
-    bool is_unit = true;
-};
-
-/// What a unit or a muscle of one side adds to the drive.
-struct Source {
-    std::string name;
-    track::Expansion drives;  ///< at 1
-    track::UnitCurves curve;
-};
-
-/// A face in equilibrium, and how it changes with the weights.
-struct State {
-    Eigen::VectorXd weight;  ///< by source
-    Eigen::VectorXd moved;   ///< weighted displacement of the points
-    Eigen::MatrixXd way;  ///< change of `moved` per weight, one column per source; empty: unknown
-};
-
-/// The value of keys at a time, linear between them.
-double value_at(const std::vector<track::Key>& keys, double t_s) {
-    const auto next = std::find_if(keys.begin(), keys.end(),
-                                   [&](const track::Key& key) { return key.time_s >= t_s; });
-    if (next == keys.begin()) return keys.front().value;
-    if (next == keys.end()) return keys.back().value;
-    const track::Key &from = *(next - 1), &to = *next;
-    return from.value + (to.value - from.value) * (t_s - from.time_s) / (to.time_s - from.time_s);
-}
+constexpr double kKeep = 1e-5;     // of squared differences from the weights of a frame, for keys
+constexpr double kGain = 0.9;      // of what was left; with less a search ends
+constexpr double kMuscleCost = 4;  // relative to a unit
+constexpr double kNearEnough =
+    1.5;  // a choice with less left, relative to the least gain of a unit, is not made again
+constexpr int kCorrections = 6, kCloseChoices = 3, kRounds = 3, kTangents = 4, kChecks = 3,
+              kSweeps = 3;
+constexpr double kSmooth =
+    1e-4;                     // of squared differences from the mean of the neighbours of a frame
+constexpr int kMostTops = 4;  // frames that decide which units there are
+constexpr double kExplained = 0.15;  // a frame of which more is left decides, too
 
 class UnitSolver {
   public:
-    UnitSolver(face::Face& face, const scene::RigFiles& files, const FitTarget& given,
-               const UnitSolveOptions& options)
-        : face_(face), files_(files), channels_(files.rig.channels()), options_(options) {
-        for (long v = 0; v < given.weight.size(); ++v)
-            if (given.weight[v] > 0) vertex_.push_back(static_cast<int>(v));
-        root_.resize(static_cast<long>(vertex_.size()));
-        for (std::size_t i = 0; i < vertex_.size(); ++i)
-            root_[static_cast<long>(i)] = std::sqrt(given.weight[vertex_[i]]);
-        target_.resize(3 * root_.size(), static_cast<long>(given.fields.size()));
+    UnitSolver(const UnitBench& bench, const FitTarget& given, UnitState rest,
+               const UnitSolveOptions& options, const ProgressMonitor& monitor)
+        : bench_(bench),
+          options_(options),
+          monitor_(monitor),
+          times_s_(given.times_s),
+          root_(roots_of(bench, given)),
+          model_(weighted(std::move(rest))) {
+        const std::vector<int>& vertices = bench.vertices();
+        points_ = root_.squaredNorm() / 3;
+        target_.resize(root_.size(), static_cast<long>(given.fields.size()));
         for (std::size_t t = 0; t < given.fields.size(); ++t)
-            target_.col(static_cast<long>(t)) = weighted(given.fields[t]);
+            for (std::size_t i = 0; i < vertices.size(); ++i)
+                target_.col(static_cast<long>(t)).segment<3>(3 * static_cast<long>(i)) =
+                    given.fields[t].row(vertices[i]).transpose();
+        target_ = root_.asDiagonal() * target_;
         size_ = target_.colwise().squaredNorm().maxCoeff(&peak_);
-        add_sources("facs", true);
-        add_sources("muscles", false);
+        const long n = bench.sources().count();
+        active_.assign(static_cast<std::size_t>(n), false);
+        price_ = Eigen::VectorXd::Zero(n);
+        for (const UnitCandidate& one : bench.sources().candidates())
+            for (const std::size_t s : one.sources)
+                price_[static_cast<long>(s)] = one.is_unit ? 1 : kMuscleCost;
+        weight_ = Eigen::MatrixXd::Zero(n, target_.cols());
     }
 
-    UnitSolution solve(const std::vector<double>& times_s, const ProgressMonitor& monitor) {
+    UnitSolution solve() {
         UnitSolution out;
         if (!(size_ > 0)) return out;
-        track::Drive rest;
-        rest.excitation = Eigen::VectorXd::Zero(channels_.column_count());
-        face_.start([&](double) { return rest; });
-        State top = choose(monitor);
-        const std::vector<long> frames = frames_to_simulate();
-        std::vector<State> states;
-        for (std::size_t k = 0; k < frames.size(); ++k) {
-            monitor.report(0.5 + 0.4 * static_cast<double>(k) / static_cast<double>(frames.size()),
-                           "units");
-            const auto goal = target_.col(frames[k]);
-            const double share = std::clamp(goal.dot(target_.col(peak_)) / size_, 0.0, 1.0);
-            const Eigen::VectorXd expected = share * top.weight;
-            states.push_back(frames[k] == peak_ ? top : state_at(expected));
-            if (frames[k] != peak_ && goal.squaredNorm() > kStill * size_)
-                improve(states.back(), goal, kKeptRounds, prices(kSmallPrice), &expected);
-            find_ways(states.back());
-            ways_.push_back(states.back().way);
+        choose_all();
+        fit_frames();
+        monitor_.report(0.6, "units");
+        simulate(some_frames());
+        fit_frames();
+        make_channels();
+        if (channels_.empty()) return out;
+        find_keys();
+        const std::vector<long> checked = some_frames();
+        // Where the model was off, the new equilibria correct it. The last ones are those of the script as it is written.
+        for (int round = 0; round < kChecks; ++round) {
+            monitor_.report(0.7 + 0.1 * round, "units");
+            if (simulate(checked) < options_.key_error_m || round + 1 == kChecks) break;
+            refit_keys();
         }
-        weight_ = Eigen::MatrixXd::Zero(static_cast<long>(sources_.size()), target_.cols());
-        for (long t = 0; t < target_.cols(); ++t) fit_between(frames, states, times_s, t);
-        out.curves = curves(times_s);
-        for (std::size_t k = 0; k < frames.size(); ++k)  // as it is written
-            states[k].moved +=
-                state_at(weight_.col(frames[k])).moved - model(states[k], weight_.col(frames[k]));
-        out.simulated.assign(static_cast<std::size_t>(target_.cols()), false);
-        for (const long f : frames) out.simulated[static_cast<std::size_t>(f)] = true;
-        const double whole = root_.squaredNorm();
-        for (long t = 0; t < target_.cols(); ++t) {
-            const auto [before, after, share] = neighbours(frames, times_s, t);
-            const Eigen::VectorXd left = (1 - share) * model(states[before], weight_.col(t)) +
-                                         share * model(states[after], weight_.col(t)) -
-                                         target_.col(t);
-            out.rms_m.push_back(left.norm() / std::sqrt(whole));
-            double max = 0;
-            for (long i = 0; i < root_.size(); ++i)
-                max = std::max(max, left.segment<3>(3 * i).norm() / root_[i]);
-            out.max_m.push_back(max);
-            out.drives.push_back(drive_of(weight_.col(t)));
-        }
+        report(checked, out);
         return out;
     }
 
   private:
-    Eigen::VectorXd weighted(const Points& field) const {
-        Eigen::VectorXd out(3 * root_.size());
-        for (long i = 0; i < root_.size(); ++i)
-            out.segment<3>(3 * i) =
-                root_[i] * field.row(vertex_[static_cast<std::size_t>(i)]).transpose();
+    static Eigen::VectorXd roots_of(const UnitBench& bench, const FitTarget& given) {
+        const std::vector<int>& vertices = bench.vertices();
+        Eigen::VectorXd out(3 * static_cast<long>(vertices.size()));
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            out.segment<3>(3 * static_cast<long>(i))
+                .setConstant(std::sqrt(given.weight[vertices[i]]));
         return out;
     }
-
-    void add_sources(const std::string& set, bool units) {
-        const blendshapes::ShapeSet found =
-            blendshapes::shape_set(files_.rig, set, {}, files_.place());
-        for (const ShapeGoal& goal : found.goals) {
-            const auto moves = [&](Kinematic k) { return goal.drive.at(k) != 0; };
-            if ((!options_.pressure && moves(Kinematic::kMouthPressure)) ||
-                (!options_.tongue && (moves(Kinematic::kTongueOut) || moves(Kinematic::kTongueUp))))
-                continue;
-            // Jaw and gaze alone are no muscles, and a muscle that relaxes is no channel.
-            const bool alone = std::any_of(goal.drive.kinematic.begin(), goal.drive.kinematic.end(),
-                                           [](double value) { return value != 0; }) ||
-                               goal.drive.excitation.minCoeff() < 0;
-            if (!units && alone) continue;
-            const bool halves = goal.sides == blendshapes::Sides::kHalves;
-            const std::string name = halves ? goal.whole : goal.name;
-            auto known = std::find_if(candidates_.begin(), candidates_.end(), [&](const auto& one) {
-                return one.is_unit == units && one.name == name;
-            });
-            if (known == candidates_.end())
-                known = candidates_.insert(candidates_.end(), Candidate{name, {}, units});
-            known->goals.push_back(sources_.size());
-            const track::ActionUnit* const unit =
-                units ? files_.rig.facs.find(track::split_side(goal.name).id) : nullptr;
-            sources_.push_back({goal.name,
-                                {goal.drive.excitation, goal.drive.kinematic},
-                                unit ? unit->curve : track::UnitCurves{}});
-            active_.push_back(units);
-        }
-    }
-
-    track::Drive drive_of(const Eigen::VectorXd& weights) const {
-        track::Expansion sum = track::Expansion::none(channels_);
-        for (std::size_t s = 0; s < sources_.size(); ++s)
-            if (const double w = weights[static_cast<long>(s)]; w > 0)
-                sum.add(sources_[s].drives, sources_[s].curve, w);
-        return rig::clamped_drive(sum, channels_);
-    }
-
-    State state_at(const Eigen::VectorXd& weights) const {
-        const track::Drive drive = drive_of(weights);
-        face_.solve_equilibrium(drive.excitation, drive, options_.rest);
-        if (options_.rest.stopped && options_.rest.stopped()) throw Interrupted();
-        return {weights, weighted(face_.pose().vertices - face_.head().vertices), {}};
-    }
-
-    /// What a source adds per change of its weight.
-    track::Expansion change_of(std::size_t source, double weight) const {
-        const double step = weight + kSecant <= 1 ? kSecant : -kSecant;
-        track::Expansion out = track::Expansion::none(channels_), before = out;
-        out.add(sources_[source].drives, sources_[source].curve, weight + step);
-        before.add(sources_[source].drives, sources_[source].curve, weight);
-        out.add(before, -1);
-        out.excitation /= step;
-        for (double& value : out.kinematic) value /= step;
-        return out;
-    }
-
-    /// Fills in the ways of the active sources. The face has to be in this state.
-    void find_ways(State& state) const {
-        if (state.way.size() > 0) return;
-        std::vector<track::Expansion> changes(sources_.size());
-        std::set<int> columns;
-        std::set<Kinematic> channels;
-        for (std::size_t s = 0; s < sources_.size(); ++s) {
-            if (!active_[s]) continue;
-            changes[s] = change_of(s, state.weight[static_cast<long>(s)]);
-            for (long c = 0; c < changes[s].excitation.size(); ++c)
-                if (changes[s].excitation[c] != 0) columns.insert(static_cast<int>(c));
-            for (std::size_t k = 0; k < changes[s].kinematic.size(); ++k)
-                if (changes[s].kinematic[k] != 0) channels.insert(static_cast<Kinematic>(k));
-        }
-        const std::vector<int> column_list(columns.begin(), columns.end());
-        const std::vector<Kinematic> channel_list(channels.begin(), channels.end());
-        std::vector<Eigen::VectorXd> moved;
-        for (const Points& one : face_.statics().sensitivities(column_list, channel_list))
-            moved.push_back(weighted(one));
-        state.way = Eigen::MatrixXd::Zero(target_.rows(), static_cast<long>(sources_.size()));
-        for (std::size_t s = 0; s < sources_.size(); ++s) {
-            if (!active_[s]) continue;
-            auto way = state.way.col(static_cast<long>(s));
-            for (std::size_t i = 0; i < column_list.size(); ++i)
-                way += changes[s].excitation[column_list[i]] * moved[i];
-            for (std::size_t i = 0; i < channel_list.size(); ++i)
-                way += changes[s].kinematic[static_cast<std::size_t>(channel_list[i])] *
-                       moved[column_list.size() + i];
-        }
-    }
-
-    Eigen::VectorXd model(const State& state, const Eigen::VectorXd& weights) const {
-        return state.moved + state.way * (weights - state.weight);
-    }
-
-    Eigen::VectorXd prices(double of_units) const {
-        Eigen::VectorXd out(static_cast<long>(sources_.size()));
-        for (const Candidate& one : candidates_)
-            for (const std::size_t s : one.goals)
-                out[static_cast<long>(s)] = (one.is_unit ? 1 : kMusclePrice) * of_units;
-        return out;
-    }
-
-    /// Weights that reproduce `goal` best where the displacement is `moved` + `way` (weights - `at`).
-    Eigen::VectorXd fitted(const Eigen::VectorXd& at, const Eigen::VectorXd& moved,
-                           const Eigen::MatrixXd& way, const Eigen::VectorXd& goal, double step,
-                           const Eigen::VectorXd& price, const Eigen::VectorXd* expected) const {
-        solve::BoxQuadratic problem;
-        problem.A = way.transpose() * way / size_;
-        problem.A.diagonal().array() += expected ? kKeep : kRidge;
-        problem.b = way.transpose() * (moved - way * at - goal) / size_;
-        if (expected) problem.b -= kKeep * *expected;
-        problem.l1_weight = price;
-        problem.min = (at.array() - step).cwiseMax(0.0);
-        problem.max = (at.array() + step).cwiseMin(1.0);
-        for (std::size_t s = 0; s < sources_.size(); ++s)
-            if (!active_[s])
-                problem.min[static_cast<long>(s)] = problem.max[static_cast<long>(s)] = 0;
-        Eigen::VectorXd out = at.cwiseMax(problem.min).cwiseMin(problem.max);
-        solve::minimise(problem, out, 1e-7);
-        return out;
-    }
-
-    /// `expected`: weights that it keeps near, or null.
-    void improve(State& state, const Eigen::VectorXd& goal, int rounds,
-                 const Eigen::VectorXd& price, const Eigen::VectorXd* expected = nullptr) const {
-        const auto cost = [&](const State& of) {
-            return 0.5 * (of.moved - goal).squaredNorm() / size_ + price.dot(of.weight) +
-                   (expected ? 0.5 * kKeep * (of.weight - *expected).squaredNorm() : 0.0);
-        };
-        double step = kLongestStep;
-        for (int round = 0; round < rounds && step > kShortestStep; ++round) {
-            find_ways(state);
-            State next =
-                state_at(fitted(state.weight, state.moved, state.way, goal, step, price, expected));
-            const double before = cost(state), after = cost(next);
-            if (after < before)
-                state = std::move(next);
-            else
-                step *= 0.3;
-            if (std::abs(before - after) < kLeastGain * before) break;
-        }
-    }
-
-    /// Leaves out what stays small, and all but those that matter most.
-    void keep_those_that_matter(State& state) {
-        find_ways(state);
-        std::vector<std::pair<double, const Candidate*>> by_worth;
-        for (const Candidate& one : candidates_) {
-            double highest = 0, worth = 0;
-            for (const std::size_t s : one.goals) {
-                const double w = state.weight[static_cast<long>(s)];
-                highest = std::max(highest, w);
-                worth += (w * state.way.col(static_cast<long>(s))).squaredNorm();
-            }
-            for (const std::size_t s : one.goals) active_[s] = false;
-            if (highest >= kLeastWeight && worth > options_.least_gain * size_)
-                by_worth.emplace_back(-worth, &one);
-        }
-        std::stable_sort(by_worth.begin(), by_worth.end(),
-                         [](const auto& a, const auto& b) { return a.first < b.first; });
-        if (static_cast<int>(by_worth.size()) > options_.most)
-            by_worth.resize(static_cast<std::size_t>(options_.most));
-        for (const auto& [worth, one] : by_worth)
-            for (const std::size_t s : one->goals) active_[s] = true;
-        for (std::size_t s = 0; s < sources_.size(); ++s)
-            if (!active_[s]) state.weight[static_cast<long>(s)] = 0;
-        state = state_at(state.weight);
-    }
-
-    /// The state at the largest motion, with the units that make it.
-    State choose(const ProgressMonitor& monitor) {
-        const auto goal = target_.col(peak_);
-        monitor.report(0.1, "units");
-        State state = state_at(Eigen::VectorXd::Zero(static_cast<long>(sources_.size())));
-        improve(state, goal, kSeekingRounds, prices(kPrice));
-        keep_those_that_matter(state);
-        improve(state, goal, kKeptRounds, prices(kSmallPrice));
-        const double left = (state.moved - goal).norm() / root_.norm();
-        if (left > options_.enough_m) {
-            // Muscles for what is left
-            monitor.report(0.4, "units");
-            State with = state_at(state.weight);
-            const std::vector<bool> units_alone = active_;
-            for (const Candidate& one : candidates_)
-                if (!one.is_unit)
-                    for (const std::size_t s : one.goals) active_[s] = true;
-            improve(with, goal, kKeptRounds, prices(0.1 * kPrice));
-            keep_those_that_matter(with);
-            improve(with, goal, kKeptRounds, prices(kSmallPrice));
-            if ((with.moved - goal).norm() < 0.8 * left * root_.norm()) {
-                find_ways(with);
-                return with;
-            }
-            active_ = units_alone;
-            state = state_at(state.weight);
-        }
-        find_ways(state);
+    UnitState weighted(UnitState state) const {
+        state.moved = root_.asDiagonal() * state.moved;
+        state.way = root_.asDiagonal() * state.way;
         return state;
     }
+    /// A part of the work: it may be stopped, and reports nothing.
+    ProgressMonitor quiet() const { return {.stopped = monitor_.stopped}; }
+    double rms_of(const Eigen::VectorXd& left) const { return left.norm() / std::sqrt(points_); }
 
-    /// The simulated frames around a frame, and the share of the later one.
-    struct Neighbours {
-        std::size_t before, after;
-        double share;
-    };
-    static Neighbours neighbours(const std::vector<long>& frames,
-                                 const std::vector<double>& times_s, long frame) {
-        const auto after = static_cast<std::size_t>(
-            std::lower_bound(frames.begin(), frames.end(), frame) - frames.begin());
-        if (after == frames.size()) return {after - 1, after - 1, 0};
-        if (after == 0 || frames[after] == frame) return {after, after, 0};
-        const double from_s = times_s[static_cast<std::size_t>(frames[after - 1])],
-                     to_s = times_s[static_cast<std::size_t>(frames[after])];
-        return {after - 1, after,
-                (times_s[static_cast<std::size_t>(frame)] - from_s) / (to_s - from_s)};
+    UnitFit usual_fit(double price) const {
+        return {.size = size_, .price = price * price_, .expected = {}};
+    }
+    /// Weights for a frame by the model, from weights that are near.
+    Eigen::VectorXd fitted(const Eigen::VectorXd& goal, Eigen::VectorXd near) const {
+        return fitted(goal, near, usual_fit(kSmallPrice));
+    }
+    Eigen::VectorXd fitted(const Eigen::VectorXd& goal, Eigen::VectorXd near,
+                           const UnitFit& how) const {
+        for (int round = 0; round < kTangents; ++round) {
+            const Eigen::VectorXd next =
+                fit_weights(model_.tangent(near), goal, active_, near, how);
+            const double change = (next - near).cwiseAbs().maxCoeff();
+            near = next;
+            constexpr double kSame = 1e-3;
+            if (change < kSame) break;
+        }
+        return near;
     }
 
-    void fit_between(const std::vector<long>& frames, const std::vector<State>& states,
-                     const std::vector<double>& times_s, long t) {
-        const auto [before, after, share] = neighbours(frames, times_s, t);
-        const State &a = states[before], &b = states[after];
-        const Eigen::MatrixXd way = (1 - share) * a.way + share * b.way;
-        const Eigen::VectorXd at_zero =
-            (1 - share) * model(a, Eigen::VectorXd::Zero(a.weight.size())) +
-            share * model(b, Eigen::VectorXd::Zero(a.weight.size()));
-        const Eigen::VectorXd expected = (1 - share) * a.weight + share * b.weight;
-        weight_.col(t) = fitted(Eigen::VectorXd::Zero(a.weight.size()), at_zero, way,
-                                target_.col(t), 1, prices(kSmallPrice), &expected);
+    /// Chooses units for the frame of the largest motion, and for others that these do not explain.
+    void choose_all() {
+        long top = peak_;
+        for (int count = 0; count < kMostTops; ++count) {
+            monitor_.report(0.5 * count / kMostTops, "units");
+            choose_for(top);
+            fit_frames();
+            double most = 0;
+            for (long t = 0; t < target_.cols(); ++t) {
+                const double left = (model_.moved(weight_.col(t)) - target_.col(t)).norm(),
+                             whole = target_.col(t).norm();
+                if (left < kExplained * whole || rms_of(target_.col(t)) < 0.1 * rms_of_peak())
+                    continue;
+                if (left > most) {
+                    most = left;
+                    top = t;
+                }
+            }
+            if (!(most > 0)) break;
+        }
+    }
+    double rms_of_peak() const { return std::sqrt(size_ / points_); }
+
+    /// Finds the units of a frame by the unit shapes, and again after each equilibrium under those that were found.
+    void choose_for(long frame) {
+        const Eigen::VectorXd goal = target_.col(frame);
+        const double cost =
+            0.5 * options_.least_gain_m * options_.least_gain_m * points_ / goal.squaredNorm();
+        const std::vector<bool> before = active_;
+        Eigen::VectorXd w = Eigen::VectorXd::Zero(bench_.sources().count());
+        UnitChoice best;
+        double least = std::numeric_limits<double>::infinity();
+        const auto choose = [&] {
+            const UnitChoice choice = choose_units(model_.tangent(w), goal, bench_.sources(),
+                                                   {.most = options_.most,
+                                                    .unit_cost = cost,
+                                                    .muscle_cost = kMuscleCost * cost,
+                                                    .price = kSmallPrice});
+            active_ = choice.active;
+            w = choice.weight;
+            // A new choice is judged after a correction.
+            double last = std::numeric_limits<double>::infinity();
+            for (int round = 0; round < kCorrections; ++round) {
+                if (round > 0) w = fitted(goal, w);
+                const double left = simulate_one(w, goal);
+                const bool ends = left > kGain * last;
+                last = left;
+                if (left < least) {
+                    least = left;
+                    best = {active_, w, left};
+                }
+                if (ends) break;
+            }
+        };
+        choose();
+        // With the derivatives in the best of them, units that act alike are told apart.
+        for (int round = 0; round < kCloseChoices && least > kNearEnough * options_.least_gain_m;
+             ++round) {
+            w = best.weight;
+            model_.add(weighted(bench_.state(w, quiet())));
+            const double before = least;
+            choose();
+            if (least > kGain * before) break;
+        }
+        active_ = best.active;
+        w = best.weight;
+        for (int round = 0; round < kRounds; ++round) {
+            w = fitted(goal, w);
+            const double left = simulate_one(w, goal);
+            if (left < options_.least_gain_m || left > kGain * least) break;
+            least = left;
+        }
+        w = fitted(goal, w);
+        for (std::size_t s = 0; s < active_.size(); ++s) active_[s] = active_[s] || before[s];
+        weight_.col(frame) = w;
     }
 
-    /// The first and the last frame, that of the largest motion, and some between that are equally far apart in motion.
-    std::vector<long> frames_to_simulate() const {
+    /// Adds the equilibrium under weights to the model. Returns the RMS distance from the goal, m.
+    double simulate_one(const Eigen::VectorXd& w, const Eigen::VectorXd& goal) {
+        const Eigen::VectorXd moved = root_.asDiagonal() * bench_.moved({w}, quiet())[0];
+        model_.add(w, moved);
+        return rms_of(moved - goal);
+    }
+
+    /// Fits every frame, then again near its neighbours: units that act alike do not take turns.
+    void fit_frames() {
+        const Eigen::VectorXd top = weight_.col(peak_);
+        for (long t = 0; t < target_.cols(); ++t) {
+            Eigen::VectorXd near = weight_.col(t);
+            if (near.isZero(0.0))
+                near = std::clamp(target_.col(t).dot(target_.col(peak_)) / size_, 0.0, 1.0) * top;
+            weight_.col(t) = fitted(target_.col(t), near);
+        }
+        UnitFit how = usual_fit(kSmallPrice);
+        how.keep = kSmooth;
+        for (int sweep = 0; sweep < kSweeps; ++sweep)
+            for (long t = 1; t + 1 < target_.cols(); ++t) {
+                how.expected = 0.5 * (weight_.col(t - 1) + weight_.col(t + 1));
+                weight_.col(t) = fitted(target_.col(t), weight_.col(t), how);
+            }
+    }
+
+    /// Frames that are equally far apart in motion, with that of the largest.
+    std::vector<long> some_frames() const {
         const long all = target_.cols();
         std::vector<double> way{0};
         for (long t = 1; t < all; ++t)
             way.push_back(way.back() + (target_.col(t) - target_.col(t - 1)).norm());
-        std::set<long> out{0, peak_, all - 1};
-        const int more = std::max(1, options_.simulated_frames - 3);
-        for (int k = 0; k < more; ++k) {
-            const double at = way.back() * (k + 0.5) / more;
+        std::set<long> out{peak_};
+        for (int k = 0; k + 1 < options_.frames; ++k) {
+            const double at = way.back() * (k + 0.5) / (options_.frames - 1);
             out.insert(std::lower_bound(way.begin(), way.end(), at) - way.begin());
         }
         return {out.begin(), out.end()};
     }
 
-    /// How far keys may be from a curve: as far as it moves the points by less than options_.key_error_m in any state.
-    double tolerance(const std::vector<std::size_t>& sources) const {
+    /// Simulates frames with the weights of now. Returns the largest RMS error of the model, m.
+    double simulate(const std::vector<long>& frames) {
+        std::vector<Eigen::VectorXd> weights;
+        for (const long t : frames) weights.emplace_back(weight_.col(t));
+        const std::vector<Eigen::VectorXd> moved = bench_.moved(weights, quiet());
         double most = 0;
-        for (const Eigen::MatrixXd& ways : ways_) {
-            Eigen::VectorXd way = Eigen::VectorXd::Zero(target_.rows());
-            for (const std::size_t s : sources) way += ways.col(static_cast<long>(s));
-            most = std::max(most, way.norm());
+        std::vector<Eigen::VectorXd> found;
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            found.emplace_back(root_.asDiagonal() * moved[i]);
+            most = std::max(most, rms_of(found[i] - model_.moved(weights[i])));
         }
-        constexpr double kMost = 3;
-        return std::clamp(options_.key_error_m * root_.norm() / most, options_.key_tolerance,
-                          kMost * options_.key_tolerance);
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+        }
+        for (std::size_t i = 0; i < frames.size(); ++i) model_.add(weights[i], found[i]);
+        return most;
     }
 
-    /// The weights as curves with few keys. Afterwards the weights are what the curves have.
-    std::vector<UnitCurve> curves(const std::vector<double>& times_s) {
-        std::vector<UnitCurve> out;
-        const auto add = [&](const std::string& name, const std::vector<std::size_t>& goals) {
-            Eigen::VectorXd mean = Eigen::VectorXd::Zero(weight_.cols());
-            for (const std::size_t goal : goals)
-                mean += weight_.row(static_cast<long>(goal)).transpose() /
-                        static_cast<double>(goals.size());
-            const std::vector<double> list(mean.data(), mean.data() + mean.size());
-            out.push_back({name, motion::reduce_keys(times_s, list, tolerance(goals))});
-            for (long t = 0; t < weight_.cols(); ++t)
-                for (const std::size_t goal : goals)
-                    weight_(static_cast<long>(goal), t) =
-                        value_at(out.back().keys, times_s[static_cast<std::size_t>(t)]);
-        };
-        for (const Candidate& one : candidates_) {
-            std::vector<std::size_t> used;
-            for (const std::size_t goal : one.goals)
-                if (active_[goal] &&
-                    weight_.row(static_cast<long>(goal)).maxCoeff() >= kLeastWeight)
-                    used.push_back(goal);
+    /// The channels of the script: units that are used, and both sides in one where the face hardly tells the difference.
+    void make_channels() {
+        for (const UnitCandidate& one : bench_.sources().candidates())
+            for (const std::size_t s : one.sources) {
+                const auto row = static_cast<long>(s);
+                if (active_[s] && weight_.row(row).maxCoeff() >= kLeastWeight)
+                    channels_.push_back({bench_.sources().at(s).name, {row}});
                 else
-                    weight_.row(static_cast<long>(goal)).setZero();
-            if (used.size() == 2 &&
-                (weight_.row(static_cast<long>(used[0])) - weight_.row(static_cast<long>(used[1])))
-                        .cwiseAbs()
-                        .maxCoeff() < options_.same_sides)
-                add(one.name, used);
-            else
-                for (const std::size_t goal : used) add(sources_[goal].name, {goal});
+                    weight_.row(row).setZero();
+            }
+        const std::vector<FrameCost> cost = costs();
+        std::vector<Channel> together;
+        for (std::size_t c = 0; c < channels_.size(); ++c) {
+            const auto row = static_cast<std::size_t>(channels_[c].rows[0]);
+            const UnitCandidate* both = nullptr;
+            for (const UnitCandidate& one : bench_.sources().candidates())
+                if (one.sources.size() == 2 && one.sources[0] == row) both = &one;
+            const bool next_is_other =
+                both && c + 1 < channels_.size() &&
+                channels_[c + 1].rows[0] == static_cast<long>(both->sources[1]);
+            if (next_is_other &&
+                cost_of_sharing(cost, static_cast<long>(c)) < squares_of(options_.same_sides_m)) {
+                together.push_back({both->name, {channels_[c].rows[0], channels_[c + 1].rows[0]}});
+                ++c;
+            } else {
+                together.push_back(channels_[c]);
+            }
+        }
+        channels_ = std::move(together);
+    }
+    /// The cost over all frames, as those of FrameCost, of an RMS error, m.
+    double squares_of(double rms_m) const {
+        return 0.5 * rms_m * rms_m * points_ / size_ * static_cast<double>(target_.cols());
+    }
+    /// How much the cost rises when a channel and the next one have to be equal.
+    double cost_of_sharing(const std::vector<FrameCost>& costs, long channel) const {
+        double out = 0;
+        for (std::size_t t = 0; t < costs.size(); ++t) {
+            Eigen::VectorXd apart = Eigen::VectorXd::Zero(costs[t].A.rows());
+            apart[channel] = 1;
+            apart[channel + 1] = -1;
+            const double now = apart.dot(in_channels(weight_.col(static_cast<long>(t))));
+            out += 0.5 * now * now / apart.dot(costs[t].A.llt().solve(apart));
         }
         return out;
     }
 
-    face::Face& face_;
-    const scene::RigFiles& files_;
-    track::ChannelTable channels_;
+    Eigen::VectorXd in_channels(const Eigen::VectorXd& weight) const {
+        Eigen::VectorXd out(static_cast<long>(channels_.size()));
+        for (std::size_t c = 0; c < channels_.size(); ++c)
+            out[static_cast<long>(c)] = weight(channels_[c].rows).mean();
+        return out;
+    }
+
+    /// The cost of the channels in every frame near the weights of now.
+    std::vector<FrameCost> costs() const {
+        std::vector<FrameCost> out;
+        for (long t = 0; t < target_.cols(); ++t) {
+            const UnitModel::Tangent at = model_.tangent(weight_.col(t));
+            Eigen::MatrixXd way(target_.rows(), static_cast<long>(channels_.size()));
+            for (std::size_t c = 0; c < channels_.size(); ++c)
+                way.col(static_cast<long>(c)) =
+                    at.way(Eigen::all, channels_[c].rows).rowwise().sum();
+            FrameCost& cost = out.emplace_back();
+            cost.A = way.transpose() * way / size_;
+            cost.A.diagonal().array() += kKeep;
+            cost.b = way.transpose() * (target_.col(t) - at.at_zero) / size_ +
+                     kKeep * in_channels(weight_.col(t));
+        }
+        return out;
+    }
+
+    void find_keys() {
+        Eigen::MatrixXd values(static_cast<long>(channels_.size()), target_.cols());
+        for (long t = 0; t < target_.cols(); ++t) values.col(t) = in_channels(weight_.col(t));
+        keys_ = joint_keys(times_s_, costs(), values, squares_of(options_.key_error_m));
+        use_keys();
+    }
+    void refit_keys() {
+        for (int round = 0; round < 2; ++round) {
+            fit_keys(times_s_, costs(), keys_);
+            use_keys();
+        }
+    }
+
+    /// The weights become what the keys say, as they are written.
+    void use_keys() {
+        constexpr double kDigits = 1e4;
+        for (auto& keys : keys_)
+            for (track::Key& key : keys) key.value = std::round(kDigits * key.value) / kDigits;
+        const Eigen::MatrixXd values = values_of_keys(keys_, times_s_);
+        weight_.setZero();
+        for (std::size_t c = 0; c < channels_.size(); ++c)
+            for (const long row : channels_[c].rows)
+                weight_.row(row) = values.row(static_cast<long>(c));
+    }
+
+    void report(const std::vector<long>& checked, UnitSolution& out) {
+        for (std::size_t c = 0; c < channels_.size(); ++c)
+            out.curves.push_back({channels_[c].name, keys_[c]});
+        out.simulated.assign(static_cast<std::size_t>(target_.cols()), false);
+        for (const long t : checked) out.simulated[static_cast<std::size_t>(t)] = true;
+        for (long t = 0; t < target_.cols(); ++t) {
+            const Eigen::VectorXd left = model_.moved(weight_.col(t)) - target_.col(t);
+            out.rms_m.push_back(rms_of(left));
+            double max = 0;
+            for (long i = 0; i < left.size(); i += 3)
+                if (root_[i] > 0) max = std::max(max, left.segment<3>(i).norm() / root_[i]);
+            out.max_m.push_back(max);
+            out.drives.push_back(bench_.sources().drive_of(weight_.col(t)));
+        }
+    }
+
+    /// A channel of the script and the sources that it moves.
+    struct Channel {
+        std::string name;
+        std::vector<long> rows;
+    };
+
+    const UnitBench& bench_;
     const UnitSolveOptions& options_;
-    std::vector<int> vertex_;  ///< those with weight
-    Eigen::VectorXd root_;     ///< square roots of their weights
-    Eigen::MatrixXd target_;   ///< weighted, one column per frame
-    double size_ = 0;          ///< its squares in the frame of the largest motion
-    Eigen::Index peak_ = 0;    ///< this frame
-    std::vector<Candidate> candidates_;
-    std::vector<Source> sources_;
-    std::vector<bool> active_;           ///< by source: whether it may have a weight
-    Eigen::MatrixXd weight_;             ///< sources x frames
-    std::vector<Eigen::MatrixXd> ways_;  ///< of the simulated frames
+    const ProgressMonitor& monitor_;
+    const std::vector<double>& times_s_;
+    Eigen::VectorXd root_;    ///< square roots of the weights of the points, three for each
+    double points_ = 0;       ///< sum of the weights
+    Eigen::MatrixXd target_;  ///< weighted, one column per frame
+    double size_ = 0;         ///< its squares in the frame of the largest motion
+    Eigen::Index peak_ = 0;   ///< this frame
+    Eigen::VectorXd price_;   ///< of a source, relative to that of a unit
+    UnitModel model_;
+    std::vector<bool> active_;  ///< by source: whether it may have a weight
+    Eigen::MatrixXd weight_;    ///< sources x frames
+    std::vector<Channel> channels_;
+    std::vector<std::vector<track::Key>> keys_;  ///< by channel
 };
 
 }  // namespace
 
-UnitSolution solve_units(face::Face& face, const scene::RigFiles& files, const FitTarget& given,
+UnitSolution solve_units(const UnitBench& bench, const FitTarget& given, UnitState rest,
                          const UnitSolveOptions& options, const ProgressMonitor& monitor) {
-    return UnitSolver(face, files, given, options).solve(given.times_s, monitor);
+    return UnitSolver(bench, given, std::move(rest), options, monitor).solve();
 }
 
 }  // namespace risorius::inverse

@@ -49,7 +49,7 @@ class GltfPacker {
     explicit GltfPacker(tinygltf::Model& model) : model_(model) { model_.buffers.emplace_back(); }
 
     /// Makes the zeros under sparse accessors of up to `count` vectors. Some readers (Godot 3) take an accessor without a view
-    /// for one of view 0. The stride lets vectors of 16-bit integers use the same view.
+    /// for one of view 0; none of them reads KHR_mesh_quantization, so that files with it need no zeros. The stride lets vectors of 16-bit integers use the same view.
     void make_zeros(unsigned count) {
         zeros_ =
             view(Floats(3 * static_cast<std::size_t>(count), 0.f), TINYGLTF_TARGET_ARRAY_BUFFER);
@@ -61,15 +61,17 @@ class GltfPacker {
         accessor.bufferView = view(values, target);
         return add(accessor);
     }
-    /// Vectors of `width` 16-bit integers, each on four bytes as vertex attributes have to be. "Normalized" ones run from -1 or 0
-    /// to 1.
+    /// Vectors of `width` integers of 8 or 16 bits, each on four bytes as vertex attributes have to be. "Normalized" ones run from -1
+    /// or 0 to 1.
     template <typename T>
-    int shorts(const std::vector<T>& values, std::size_t width, bool normalized, bool with_range) {
-        static_assert(sizeof(T) == 2);
+    int integers(const std::vector<T>& values, std::size_t width, bool normalized,
+                 bool with_range) {
+        static_assert(sizeof(T) <= 2);
         constexpr int kTypes[] = {TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4};
         tinygltf::Accessor accessor = described(values, kTypes[width - 2], with_range);
         accessor.normalized = normalized;
-        const std::size_t padded = (width + 1) / 2 * 2;
+        constexpr std::size_t kInFour = 4 / sizeof(T);
+        const std::size_t padded = (width + kInFour - 1) / kInFour * kInFour;
         std::vector<T> spread(values.size() / width * padded, T{0});
         for (std::size_t i = 0; i < values.size(); ++i)
             spread[i / width * padded + i % width] = values[i];
@@ -111,6 +113,13 @@ class GltfPacker {
         return add(accessor);
     }
 
+    /// Numbers in 0 to 1 as 65535ths.
+    int shares(const std::vector<unsigned short>& values) {
+        tinygltf::Accessor accessor = described(values, TINYGLTF_TYPE_SCALAR, false);
+        accessor.normalized = true;
+        accessor.bufferView = view(values, 0);
+        return add(accessor);
+    }
     /// Whole numbers of a vertex, four of them: joints, or shares and colours that are "normalized"
     template <typename T>
     int quadruples(const std::vector<T>& values, bool normalized) {
@@ -134,6 +143,7 @@ class GltfPacker {
         if (std::is_same_v<T, short>) return TINYGLTF_COMPONENT_TYPE_SHORT;
         if (std::is_same_v<T, unsigned short>) return TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
         if (std::is_same_v<T, unsigned char>) return TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
+        if (std::is_same_v<T, signed char>) return TINYGLTF_COMPONENT_TYPE_BYTE;
         return TINYGLTF_COMPONENT_TYPE_FLOAT;
     }
     /// A number with few digits that is this float when it is read as one.

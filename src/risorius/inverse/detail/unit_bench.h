@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// Simulates equilibria under weights of units on several equal faces at once, and what points do in them.
+///
+/// Every equilibrium starts from rest, so that results do not depend on the number of faces or on the order.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "risorius/core/progress_monitor.h"
+#include "risorius/face/face_team.h"
+#include "risorius/inverse/detail/unit_model.h"
+#include "risorius/inverse/detail/unit_sources.h"
+
+namespace risorius::inverse {
+
+class UnitBench {
+  public:
+    /// `vertices`: the points. All references must outlive the bench.
+    UnitBench(face::FaceTeam& team, const UnitSources& sources, std::vector<int> vertices);
+
+    /// The displacements of the points under each of a list of weights. Throws Interrupted.
+    std::vector<Eigen::VectorXd> moved(const std::vector<Eigen::VectorXd>& weights,
+                                       const ProgressMonitor& monitor) const;
+
+    /// The equilibrium under weights, with the derivatives of the points by the weights of all sources. Throws Interrupted.
+    UnitState state(const Eigen::VectorXd& weight, const ProgressMonitor& monitor) const;
+
+    /// The face at rest with the unit shapes: what each source moves at part of its weight, over that part. Both sides of a unit are
+    /// simulated at once, and what they move is shared between them. Kept in the cache for the next run with this rig.
+    UnitState rest(const scene::RigFiles& files, const std::string& quality,
+                   const ProgressMonitor& monitor) const;
+
+    const std::vector<int>& vertices() const { return vertices_; }
+    const UnitSources& sources() const { return sources_; }
+
+  private:
+    void go_to(face::Face& face, const Eigen::VectorXd& weight,
+               const ProgressMonitor& monitor) const;
+    Eigen::VectorXd displacement(const Points& vertices) const;  ///< of the points, m
+    Eigen::MatrixXd unit_shapes(const ProgressMonitor& monitor) const;
+    Points at_rest() const;  ///< the points, m
+
+    face::FaceTeam& team_;
+    const UnitSources& sources_;
+    std::vector<int> vertices_;
+};
+
+}  // namespace risorius::inverse

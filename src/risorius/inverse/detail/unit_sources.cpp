@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/inverse/detail/unit_sources.h"
+
+#include <algorithm>
+
+#include "risorius/blendshapes/shape_player.h"
+#include "risorius/rig/expression_drive.h"
+
+namespace risorius::inverse {
+
+UnitSources::UnitSources(const scene::RigFiles& files, bool pressure, bool tongue)
+    : channels_(files.rig.channels()) {
+    add(files, "facs", true, pressure, tongue);
+    add(files, "muscles", false, pressure, tongue);
+}
+
+void UnitSources::add(const scene::RigFiles& files, const std::string& set, bool units,
+                      bool pressure, bool tongue) {
+    using track::Kinematic;
+    const blendshapes::ShapeSet found = blendshapes::shape_set(files.rig, set, {}, files.place());
+    for (const blendshapes::ShapeGoal& goal : found.goals) {
+        const auto moves = [&](Kinematic k) { return goal.drive.at(k) != 0; };
+        if ((!pressure && moves(Kinematic::kMouthPressure)) ||
+            (!tongue && (moves(Kinematic::kTongueOut) || moves(Kinematic::kTongueUp))))
+            continue;
+        // Jaw and gaze alone are no muscles, and a muscle that relaxes is no channel.
+        const bool alone = std::any_of(goal.drive.kinematic.begin(), goal.drive.kinematic.end(),
+                                       [](double value) { return value != 0; }) ||
+                           goal.drive.excitation.minCoeff() < 0;
+        if (!units && alone) continue;
+        const bool halves = goal.sides == blendshapes::Sides::kHalves;
+        const std::string name = halves ? goal.whole : goal.name;
+        auto known = std::find_if(candidates_.begin(), candidates_.end(), [&](const auto& one) {
+            return one.is_unit == units && one.name == name;
+        });
+        if (known == candidates_.end())
+            known = candidates_.insert(candidates_.end(), UnitCandidate{name, {}, units});
+        known->sources.push_back(sources_.size());
+        const track::ActionUnit* const unit =
+            units ? files.rig.facs.find(track::split_side(goal.name).id) : nullptr;
+        sources_.push_back({goal.name,
+                            {goal.drive.excitation, goal.drive.kinematic},
+                            halves ? (goal.left ? 0 : 1) : -1,
+                            unit ? unit->curve : track::UnitCurves{}});
+    }
+}
+
+track::Drive UnitSources::drive_of(const Eigen::VectorXd& weights) const {
+    track::Expansion sum = track::Expansion::none(channels_);
+    for (std::size_t s = 0; s < sources_.size(); ++s)
+        if (const double w = weights[static_cast<long>(s)]; w > 0)
+            sum.add(sources_[s].drives, sources_[s].curve, w);
+    return rig::clamped_drive(sum, channels_);
+}
+
+track::Expansion UnitSources::change_of(std::size_t source, double weight) const {
+    constexpr double kSecant = 0.1;
+    const double step = weight + kSecant <= 1 ? kSecant : -kSecant;
+    track::Expansion out = track::Expansion::none(channels_), before = out;
+    out.add(sources_[source].drives, sources_[source].curve, weight + step);
+    before.add(sources_[source].drives, sources_[source].curve, weight);
+    out.add(before, -1);
+    out.excitation /= step;
+    for (double& value : out.kinematic) value /= step;
+    return out;
+}
+
+}  // namespace risorius::inverse

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// The parts of the search for action units: few keys for several curves, and a model through equilibria.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "risorius/inverse/detail/joint_keys.h"
+#include "risorius/inverse/detail/unit_model.h"
+
+namespace risorius::inverse {
+namespace {
+
+constexpr long kFrames = 30;
+
+std::vector<double> times() {
+    std::vector<double> out;
+    for (long t = 0; t < kFrames; ++t) out.push_back(static_cast<double>(t) / 30.0);
+    return out;
+}
+
+/// Two curves: a bump, and one that follows it. The face sees their sum by `sum` and each of them by `each`.
+std::vector<FrameCost> costs(const Eigen::MatrixXd& wanted, double sum, double each) {
+    std::vector<FrameCost> out;
+    for (long t = 0; t < wanted.cols(); ++t) {
+        FrameCost cost{Eigen::MatrixXd::Constant(2, 2, sum), {}};
+        cost.A.diagonal().array() += each;
+        cost.b = cost.A * wanted.col(t);
+        out.push_back(cost);
+    }
+    return out;
+}
+
+Eigen::MatrixXd bumps() {
+    Eigen::MatrixXd out(2, kFrames);
+    for (long t = 0; t < kFrames; ++t) {
+        out(0, t) =
+            0.8 * std::pow(std::sin(3.14159265 * static_cast<double>(t) / (kFrames - 1)), 2);
+        out(1, t) = 0.1 + 0.02 * std::sin(static_cast<double>(t));  // a tremor
+    }
+    return out;
+}
+
+double cost_of(const std::vector<FrameCost>& costs, const Eigen::MatrixXd& values) {
+    double out = 0;
+    for (std::size_t t = 0; t < costs.size(); ++t)
+        out += costs[t].of(values.col(static_cast<long>(t)));
+    return out;
+}
+
+TEST(JointKeys, CostAtMostWhatIsAllowed) {
+    const std::vector<double> at = times();
+    const std::vector<FrameCost> frames = costs(bumps(), 1, 0.1);
+    std::size_t last = 1000;
+    for (const double allowed : {1e-4, 1e-3, 1e-2}) {
+        const auto keys = joint_keys(at, frames, bumps(), allowed);
+        EXPECT_LE(cost_of(frames, values_of_keys(keys, at)),
+                  cost_of(frames, bumps()) + 1.01 * allowed);
+        const std::size_t count = keys[0].size() + keys[1].size();
+        EXPECT_LE(count, last);
+        last = count;
+    }
+    EXPECT_LE(last, 7u);
+}
+
+TEST(JointKeys, ACurveThatMovesTheFaceLittleHasFewKeys) {
+    const std::vector<double> at = times();
+    std::vector<FrameCost> frames = costs(bumps(), 0, 1);
+    for (FrameCost& cost : frames) {  // the face hardly sees the tremor
+        cost.A(1, 1) *= 1e-4;
+        cost.b[1] *= 1e-4;
+    }
+    const auto keys = joint_keys(at, frames, bumps(), 1e-4);
+    EXPECT_EQ(keys[1].size(), 1u);
+    EXPECT_GE(keys[0].size(), 3u);
+}
+
+TEST(JointKeys, StayWithinTheirRange) {
+    const std::vector<double> at = times();
+    Eigen::MatrixXd beyond = bumps();
+    beyond.row(0) = (1.5 * beyond.row(0)).array() - 0.1;
+    for (const auto& keys : joint_keys(at, costs(beyond, 1, 0.1), beyond, 1e-3))
+        for (const track::Key& key : keys) {
+            EXPECT_GE(key.value, 0);
+            EXPECT_LE(key.value, 1);
+        }
+}
+
+TEST(UnitModel, PassesThroughEveryEquilibrium) {
+    const auto face = [](const Eigen::VectorXd& w) {
+        return Eigen::VectorXd(
+            Eigen::Vector3d(w[0] - 0.3 * w[0] * w[0], w[1] + 0.2 * w[0] * w[1], 0.1 * w[0]));
+    };
+    Eigen::MatrixXd shapes(3, 2);
+    shapes << 1, 0, 0, 1, 0.1, 0;
+    UnitModel model({Eigen::Vector2d::Zero(), Eigen::Vector3d::Zero(), shapes});
+    const std::vector<Eigen::VectorXd> seen{Eigen::Vector2d(0.5, 0.2), Eigen::Vector2d(0.9, 0.8)};
+    // Between them it is better than the sum of shapes.
+    const Eigen::Vector2d between(0.7, 0.5);
+    const double before = (model.moved(between) - face(between)).norm();
+    for (const Eigen::VectorXd& w : seen) model.add(w, face(w));
+    for (const Eigen::VectorXd& w : seen) EXPECT_LT((model.moved(w) - face(w)).norm(), 1e-3);
+    EXPECT_LT((model.moved(between) - face(between)).norm(), 0.3 * before);
+    const UnitModel::Tangent tangent = model.tangent(between);
+    EXPECT_LT((tangent.at_zero + tangent.way * between - model.moved(between)).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace risorius::inverse
