@@ -93,7 +93,7 @@ class UnitSolver {
         return state;
     }
     /// A part of the work: it may be stopped, and reports nothing.
-    ProgressMonitor quiet() const { return {.stopped = monitor_.stopped}; }
+    ProgressMonitor quiet() const { return {.progress = {}, .stopped = monitor_.stopped}; }
     double rms_of(const Eigen::VectorXd& left) const { return left.norm() / std::sqrt(points_); }
 
     UnitFit usual_fit(double price) const {
@@ -176,9 +176,9 @@ class UnitSolver {
              ++round) {
             w = best.weight;
             model_.add(weighted(bench_.state(w, quiet())));
-            const double before = least;
+            const double last_least = least;
             choose();
-            if (least > kGain * before) break;
+            if (least > kGain * last_least) break;
         }
         active_ = best.active;
         w = best.weight;

@@ -6,10 +6,9 @@
 #include <numbers>
 #include <string>
 
-#include "risorius/core/known_names.h"
+#include "risorius/render/detail/beard_form.h"
 #include "risorius/render/detail/lock_style.h"
 #include "risorius/render/detail/skin_paint.h"
-#include "risorius/render/hair_styles.h"
 
 namespace risorius::render {
 namespace {
@@ -109,25 +108,10 @@ void plan_lips(const Marks& marks, SkinPlan& plan) {
     plan.lip_back_m = std::min(upper.front().z(), upper.back().z()) - 0.035;
 }
 
-struct BeardForm {
-    const char* name;
-    std::array<bool, 9> spots;  ///< those of plan_beard()
-    double spread;              ///< of the spots, against stubble
-    bool trimmed;
-};
-constexpr std::array<BeardForm, 5> kBeardForms{{
-    {"stubble", {true, true, true, true, true, true, true, true, false}, 1.0, false},
-    {"full", {true, true, true, true, true, true, true, true, true}, 1.3, true},
-    {"moustache", {false, false, true, true, false, false, false, false, false}, 1.15, true},
-    {"goatee", {true, true, true, true, false, false, false, false, true}, 1.05, true},
-    {"jawline", {true, true, false, false, true, true, true, true, false}, 1.15, true},
-}};
-
 /// Along the jaw, on the chin, between nose and lip and under the jaw. Sideburns join it to the hair of the head, and the last
 /// spots join moustache and chin.
 void plan_beard(const Marks& marks, const Appearance& appearance, SkinPlan& plan) {
-    const BeardForm& form =
-        kBeardForms[index_of_name("beard_form", appearance.beard_form, beard_form_names())];
+    const BeardForm& form = beard_form(appearance.beard_form);
     plan.trimmed = form.trimmed;
     struct Spot {
         const char *from, *to;
@@ -238,15 +222,6 @@ bool EarRegion::contains(const Vec3& p) const {
     const bool bowl = p.z() > high.z() - 0.030 && p.y() < high.y() - 0.016;
     return bowl ||
            std::abs(p.x()) > out_m + lean * (high.z() - p.z()) + lean * std::max(0.0, p.y());
-}
-
-const std::vector<std::string>& beard_form_names() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> out;
-        for (const BeardForm& form : kBeardForms) out.emplace_back(form.name);
-        return out;
-    }();
-    return names;
 }
 
 double beard_density(const SkinPlan& plan, const Vec3& rest) {
