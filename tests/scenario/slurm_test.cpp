@@ -45,7 +45,7 @@ class Slurm : public testing::Test {
     fs::path design() const {
         Json json = Json::parse(R"({"format": "risorius-design", "version": 1, "name": "Two",
             "clips": {"quality": "preview", "ending": "mkv"},
-            "match": {"luminance": {"mean": 0.25}},
+            "match": {"luminance": {"mean": 0.28}},
             "sets": [{"name": "two", "clip": "${expression}",
                 "factors": {"expression": ["happiness", "fear"]},
                 "script": {"format": "risorius-script", "version": 1, "fps": 10, "duration_s": 0.3,
