@@ -10,116 +10,17 @@
 #include "risorius/core/existing_file.h"
 #include "risorius/core/known_names.h"
 #include "risorius/track/detail/emg_source.h"
+#include "risorius/track/detail/script_limits.h"
 #include "risorius/track/timeline.h"
 
 namespace risorius::track {
 
 namespace {
 
-constexpr double kLongest_s = 3600;
-constexpr double kMaxGravity_m_s2 = 50;
 constexpr double kMaxAsymmetry = 0.5;
 // Schmidt et al. 2006: smiles of the two sides begin less than 40 ms apart.
 constexpr double kLatestSide_s = 0.040;
 constexpr double kBlinkApart_s = 0.3;  // minimum distance of idle blinks from blinks in the script
-
-ScriptLight read_light(const JsonCursor& json) {
-    ScriptLight light;
-    const auto preset = [&](const JsonCursor& name) {
-        light.preset = name.one_of({"studio", "soft", "dramatic", "outdoor", "portrait", "even"});
-    };
-    if (json.is_string()) {
-        preset(json);
-        return light;
-    }
-    json.allow_keys({"preset", "file", "turn_deg", "exposure_ev"});
-    if (const auto v = json.find("preset")) preset(*v);
-    if (const auto v = json.find("file")) light.file = existing_file(*v);
-    if (const auto v = json.find("turn_deg")) light.turn_deg = v->number({-360, 360});
-    if (const auto v = json.find("exposure_ev")) light.exposure_ev = v->number({-10, 10});
-    return light;
-}
-
-ScriptView read_view(const JsonCursor& json) {
-    json.allow_keys({"width_px", "height_px", "camera", "show", "background", "light", "projection",
-                     "distance_m", "view_angle_deg", "aperture_mm", "shutter_deg", "antialiasing",
-                     "hair"});
-    ScriptView view;
-    if (const auto v = json.find("light")) view.light = read_light(*v);
-    if (const auto v = json.find("projection"))
-        view.orthographic = v->one_of({"perspective", "orthographic"}) == "orthographic";
-    if (const auto v = json.find("distance_m")) view.distance_m = v->number({0.2, 100});
-    if (const auto v = json.find("view_angle_deg")) view.view_angle_deg = v->number({0.5, 90});
-    if (const auto v = json.find("aperture_mm")) view.aperture_mm = v->number({0, 100});
-    if (const auto v = json.find("shutter_deg")) view.shutter_deg = v->number({0, 360});
-    if (const auto v = json.find("antialiasing")) view.antialiasing = v->integer(1, 4);
-    if (const auto v = json.find("hair")) view.hair = v->one_of({"own", "none"}) == "own";
-    if (const auto v = json.find("width_px")) view.width_px = v->integer(16, 8192);
-    if (const auto v = json.find("height_px")) view.height_px = v->integer(16, 8192);
-    if (const auto v = json.find("camera"))
-        view.camera = v->one_of({"front", "three_quarter", "three_quarter_right", "profile",
-                                 "profile_right", "top", "eye", "nose", "mouth", "ear"});
-    if (const auto v = json.find("show"))
-        view.show =
-            v->one_of({"skin", "muscles", "skull", "wire", "strain", "landmarks", "articulation"});
-    if (const auto v = json.find("background")) {
-        const char* expected = "a colour \"#rrggbb\" or \"transparent\"";
-        if (!v->is_string()) v->fail(expected);
-        const std::string colour = v->string();
-        if (colour == "transparent") {
-            view.transparent = true;
-        } else {
-            if (colour.size() != 7 || colour[0] != '#' ||
-                colour.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
-                v->fail(expected);
-            for (std::size_t i = 0; i < 3; ++i)
-                view.background_rgb[i] =
-                    std::stoi(colour.substr(1 + 2 * i, 2), nullptr, 16) / 255.0;
-        }
-    }
-    return view;
-}
-
-std::optional<Vec3> read_gravity(const JsonCursor& json) {
-    if (json.is_array()) {
-        const Vec3 gravity = json.vec3();
-        if (!(gravity.norm() <= kMaxGravity_m_s2))
-            json.fail("an acceleration of at most " + format_number(kMaxGravity_m_s2) + " m/s^2");
-        return gravity;
-    }
-    if (!json.json().is_boolean()) json.fail("true, false or [x, y, z] in m/s^2");
-    return json.boolean() ? ScriptHeader{}.gravity_m_s2 : std::nullopt;
-}
-
-ScriptHeader read_header(const JsonCursor& json) {
-    json.at("format").one_of({"risorius-script"});
-    const JsonCursor version = json.at("version");
-    if (version.json() != 1) version.fail("1, the version of the format this program reads");
-    json.allow_keys({"format", "version", "rig", "fps", "duration_s", "seed", "jaw", "motion",
-                     "gravity", "channels", "emg", "events", "view", "weakness", "late_s",
-                     "pulls"});
-    ScriptHeader header;
-    header.rig = json.at("rig").string();
-    if (header.rig.empty()) json.at("rig").fail("the path of a rig file");
-    header.rig_file = json.at("rig").path();
-    if (const auto v = json.find("fps")) header.fps = v->integer(1, 240);
-    const JsonCursor duration = json.at("duration_s");
-    header.duration_s = duration.number();
-    if (!(header.duration_s > 0 && header.duration_s <= kLongest_s))
-        duration.fail("(0, " + format_number(kLongest_s) + "]");
-    if (header.frame_count() < 1)
-        duration.fail("at least one frame at " + std::to_string(header.fps) + " fps");
-    if (const auto v = json.find("seed")) header.seed = v->integer(0, 2147483647);
-    if (const auto v = json.find("jaw"))
-        header.jaw = v->one_of({"channels", "muscles"}) == "muscles" ? JawDrive::kMuscles
-                                                                     : JawDrive::kChannels;
-    if (const auto v = json.find("motion"))
-        header.motion = v->one_of({"dynamic", "quasi_static"}) == "dynamic" ? Motion::kDynamic
-                                                                            : Motion::kQuasiStatic;
-    if (const auto v = json.find("gravity")) header.gravity_m_s2 = read_gravity(*v);
-    if (const auto v = json.find("view")) header.view = read_view(*v);
-    return header;
-}
 
 /// Resolves the names in a script against a rig.
 class Reader {
@@ -409,18 +310,6 @@ class Reader {
 
 }  // namespace
 
-int frame_count(double duration_s, int fps) {
-    return static_cast<int>(std::lround(duration_s * fps));
-}
-
-int ScriptHeader::frame_count() const { return track::frame_count(duration_s, fps); }
-
-ScriptHeader read_script_header(const std::filesystem::path& file) {
-    return read_header(JsonCursor::read_file(file));
-}
-
-ScriptHeader read_script_header(const JsonCursor& script) { return read_header(script); }
-
 ScriptDescription read_script(const std::filesystem::path& file, const ChannelTable& channels,
                               const FacsTable& facs, const Expressions& expressions) {
     return read_script(JsonCursor::read_file(file), channels, facs, expressions);
@@ -463,7 +352,7 @@ void read_weakness(const JsonCursor& json, const std::string& name, const Channe
 ScriptDescription read_script(const JsonCursor& json, const ChannelTable& channels,
                               const FacsTable& facs, const Expressions& expressions) {
     ScriptDescription script;
-    script.header = read_header(json);
+    script.header = read_script_header(json);
     if (const auto weakness = json.find("weakness")) {
         script.weakness = Eigen::VectorXd::Zero(channels.column_count());
         for (const std::string& name : weakness->keys())

@@ -23,10 +23,10 @@ constexpr double Identity::*kBlended[] = {
     &Identity::sex,      &Identity::age,     &Identity::freckles, &Identity::scalp_hair,
     &Identity::hairline, &Identity::temples, &Identity::beard};
 const std::pair<double IdentityHair::*, Range> kBlendedHair[] = {
-    {&IdentityHair::grey, {0, 1}},
-    {&IdentityHair::age_lines, {0, 1}},
-    {&IdentityHair::brow_density, {0, 3}},
-    {&IdentityHair::brow_width, {0.3, 2}}};
+    {&IdentityHair::grey, kShareRange},
+    {&IdentityHair::age_lines, kShareRange},
+    {&IdentityHair::brow_density, kBrowDensityRange},
+    {&IdentityHair::brow_width, kBrowWidthRange}};
 constexpr std::string Identity::*kTones[] = {&Identity::skin, &Identity::iris, &Identity::hair};
 
 bool makes_uneven(const std::string& parameter) {

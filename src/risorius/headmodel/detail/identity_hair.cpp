@@ -10,11 +10,6 @@
 #include "risorius/render/hair_styles.h"
 
 namespace risorius::headmodel {
-namespace {
-
-constexpr Range kBrowDensity{0, 3}, kBrowWidth{0.3, 2};
-
-}  // namespace
 
 const std::vector<std::string_view>& identity_hair_keys() {
     static const std::vector<std::string_view> keys{"hair_style",   "hairline_form", "grey_hair",
@@ -31,8 +26,9 @@ IdentityHair read_identity_hair(const JsonCursor& json) {
     if (json.has("age_lines")) hair.age_lines = json.at("age_lines").number();
     if (json.has("seed")) hair.seed = json.at("seed").integer(0, std::numeric_limits<int>::max());
     if (json.has("beard_form")) hair.beard_form = json.at("beard_form").string();
-    if (json.has("brow_density")) hair.brow_density = json.at("brow_density").number(kBrowDensity);
-    if (json.has("brow_width")) hair.brow_width = json.at("brow_width").number(kBrowWidth);
+    if (json.has("brow_density"))
+        hair.brow_density = json.at("brow_density").number(kBrowDensityRange);
+    if (json.has("brow_width")) hair.brow_width = json.at("brow_width").number(kBrowWidthRange);
     return hair;
 }
 

@@ -11,6 +11,8 @@
 
 namespace risorius::headmodel {
 
+inline constexpr Range kShareRange{0, 1}, kBrowDensityRange{0, 3}, kBrowWidthRange{0.3, 2};
+
 struct IdentityHair {
     std::string style = "shaven";        ///< a name of render::hair_style_names()
     std::string hairline_form = "even";  ///< a name of render::hairline_form_names()

@@ -81,7 +81,7 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
     const double greying = person.age + 10 * std::clamp(draw.normal(), -2.0, 2.0);
     person.hairdo.grey = to_hundredths(std::clamp((greying - 40) / 50, 0.0, 1.0));
     person.hairdo.seed = static_cast<int>(seed % 100000) + 1;
-    // Brows: thinner and often plucked in women, bushier and in the end thinner with age.
+    // Brows of women are thinner, and often plucked.
     const double brow = std::clamp(draw.normal(), -2.0, 2.0),
                  height = std::clamp(draw.normal(), -2.0, 2.0);
     person.hairdo.brow_density = to_hundredths((man ? 1.25 : 0.95) * std::exp(0.35 * brow));

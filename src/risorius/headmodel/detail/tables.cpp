@@ -8,7 +8,9 @@
 
 #include "risorius/core/data_folder.h"
 #include "risorius/core/error.h"
+#include "risorius/core/known_names.h"
 #include "risorius/core/text_lines.h"
+#include "risorius/render/hair_styles.h"
 
 namespace risorius::headmodel {
 namespace {
@@ -269,8 +271,13 @@ void read_hair_styles(const std::filesystem::path& file, DesignTables& tables) {
                     cells.front().back());
     for (std::size_t r = 1; r < cells.size(); ++r) {
         HairChance chance{number(file, cells[r][0]), cells[r][1], {}};
-        for (std::size_t k = 2; k < columns; ++k)
-            chance.ancestry.push_back(number(file, cells[r][k]));
+        const std::string row = file.string() + ": row " + std::to_string(r + 1);
+        index_of_name(row, chance.style, render::hair_style_names());
+        for (std::size_t k = 2; k < columns; ++k) {
+            const double weight = number(file, cells[r][k]);
+            if (!(weight >= 0)) throw Error(row, "weights of 0 or more", in_quotes(cells[r][k]));
+            chance.ancestry.push_back(weight);
+        }
         tables.hair_styles.push_back(std::move(chance));
     }
 }

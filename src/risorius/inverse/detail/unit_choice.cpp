@@ -80,12 +80,21 @@ class Choice {
             cost += candidates_[c].is_unit ? options_.unit_cost : options_.muscle_cost;
         return problems_.best(sources_of(set)) + cost;
     }
+    /// The best set that was looked at, and its value.
+    struct Best {
+        Set set;
+        double value;
+    };
+    void look_at(Set set, Best& best) const {
+        const double value = value_of(set);
+        if (value < best.value) best = {std::move(set), value};
+    }
     /// Takes the better set, if it is better.
-    bool take(const Set& best, double value) {
+    bool take(Best best) {
         constexpr double kGain = 1e-9;
-        if (!(value < value_ - kGain)) return false;
-        chosen_ = best;
-        value_ = value;
+        if (!(best.value < value_ - kGain)) return false;
+        chosen_ = std::move(best.set);
+        value_ = best.value;
         return true;
     }
     template <class Visit>
@@ -96,45 +105,33 @@ class Choice {
 
     bool add_one() {
         if (static_cast<int>(chosen_.size()) >= options_.most) return false;
-        Set best;
-        double least = value_;
+        Best best{{}, value_};
         others([&](std::size_t c) {
             Set next = chosen_;
             next.insert(c);
-            if (const double value = value_of(next); value < least) {
-                least = value;
-                best = std::move(next);
-            }
+            look_at(std::move(next), best);
         });
-        return take(best, least);
+        return take(std::move(best));
     }
     bool exchange_one() {
-        Set best;
-        double least = value_;
+        Best best{{}, value_};
         for (const std::size_t out : chosen_)
             others([&](std::size_t c) {
                 Set next = chosen_;
                 next.erase(out);
                 next.insert(c);
-                if (const double value = value_of(next); value < least) {
-                    least = value;
-                    best = std::move(next);
-                }
+                look_at(std::move(next), best);
             });
-        return take(best, least);
+        return take(std::move(best));
     }
     bool leave_one_out() {
-        Set best;
-        double least = value_;
+        Best best{{}, value_};
         for (const std::size_t out : chosen_) {
             Set next = chosen_;
             next.erase(out);
-            if (const double value = value_of(next); value < least) {
-                least = value;
-                best = std::move(next);
-            }
+            look_at(std::move(next), best);
         }
-        return take(best, least);
+        return take(std::move(best));
     }
 
     const SmallProblems& problems_;

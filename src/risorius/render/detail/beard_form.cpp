@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "risorius/core/known_names.h"
+#include "risorius/render/detail/names_of.h"
 #include "risorius/render/hair_styles.h"
 
 namespace risorius::render {
@@ -20,11 +21,7 @@ constexpr std::array<BeardForm, 5> kBeardForms{{
 }  // namespace
 
 const std::vector<std::string>& beard_form_names() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> out;
-        for (const BeardForm& form : kBeardForms) out.emplace_back(form.name);
-        return out;
-    }();
+    static const std::vector<std::string> names = names_of(kBeardForms);
     return names;
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "risorius/core/error.h"
+#include "risorius/render/detail/names_of.h"
 #include "risorius/render/framing.h"
 #include "risorius/render/offscreen_view.h"
 
@@ -73,11 +74,7 @@ void check_lens(const Lens& lens) {
 }  // namespace
 
 const std::vector<std::string>& camera_names() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> list;
-        for (const NamedCamera& camera : kCameras) list.emplace_back(camera.name);
-        return list;
-    }();
+    static const std::vector<std::string> names = names_of(kCameras);
     return names;
 }
 

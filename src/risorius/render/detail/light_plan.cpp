@@ -6,6 +6,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/render/detail/lights.h"
+#include "risorius/render/detail/names_of.h"
 
 namespace risorius::render {
 namespace {
@@ -98,11 +99,7 @@ Surroundings turned(const Surroundings& map, double turn_deg) {
 }  // namespace
 
 const std::vector<std::string>& light_names() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> list;
-        for (const Preset& preset : kPresets) list.emplace_back(preset.name);
-        return list;
-    }();
+    static const std::vector<std::string> names = names_of(kPresets);
     return names;
 }
 

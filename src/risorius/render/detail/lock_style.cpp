@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "risorius/core/known_names.h"
+#include "risorius/render/detail/names_of.h"
 #include "risorius/render/hair_styles.h"
 
 namespace risorius::render {
@@ -141,13 +142,6 @@ constexpr HairlineForm kForms[] = {
     {.name = "high", .higher_mm = 12},
     {.name = "receding", .higher_mm = 22, .bay_mm = 4, .temples_mm = 22},
 };
-
-template <typename Table>
-std::vector<std::string> names_of(const Table& table) {
-    std::vector<std::string> names;
-    for (const auto& row : table) names.emplace_back(row.name);
-    return names;
-}
 
 }  // namespace
 

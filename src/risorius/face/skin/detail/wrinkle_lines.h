@@ -10,8 +10,8 @@
 /// Lines are perpendicular to the fibres. They are evenly spaced where fibres are parallel, and form a fan where fibres turn about eye or
 /// mouth. For a crease that is a single line (nasolabial), f is the signed distance from the curve of the crease / l.
 ///
-/// Everything is fixed in the rest shape, so lines move with the skin and do not flicker. Patterns that overlap have different slots; where two of a slot meet, both
-/// fade. The patterns are a table of the rig (rig/wrinkle_table.h).
+/// Everything is fixed in the rest shape, so lines move with the skin and do not flicker. Patterns that overlap have different slots;
+/// where two of a slot meet, both fade. The patterns are a table of the rig (rig/wrinkle_table.h).
 ///
 /// Lines of expression lie across the pull of the muscles: Kraissl 1951, Plast. Reconstr. Surg. 8(1), 1-28.
 #pragma once
