@@ -49,8 +49,9 @@ TEST(Cast, IsBalancedAndNoTwoAreAlike) {
     for (std::size_t k = 0; k < 2; ++k)
         EXPECT_EQ(text_of(cast[k].identity), text_of(again[k].identity));
     const std::string table = cast_table({cast[0], cast[1]}, cast_tables());
-    EXPECT_TRUE(table.starts_with(
-        "name\tsex\tage\tancestry\tseed\tnearest_sd\tnearest_to\tbitragion_breadth_mm\t"))
+    EXPECT_TRUE(
+        table.starts_with("name\tsex\tage\tancestry\tskin_ita_deg\tseed\tnearest_sd\tnearest_"
+                          "to\tbitragion_breadth_mm\t"))
         << table;
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
 }

@@ -234,6 +234,47 @@ TEST(Person, IsWholeAndHasLidsInFrontOfItsGlobes) {
     }
 }
 
+/// A rare value of a local parameter leaves no dent and no lump: the displacement never changes by more than 0.7 of its way along the
+/// skin, where it was up to 1.3.
+TEST(Person, RareValuesLeaveNoDents) {
+    const auto& mesh = mean_head().mesh;
+    for (const char* parameter :
+         {"dorsum_hump", "radix_depth", "nose_bridge", "throat_depth", "ear_lobe"})
+        for (const double value : {-3.0, 3.0}) {
+            const auto moved = [&](double strength) {
+                Identity person = of_population(0, 40);
+                person.shape[parameter] = strength;
+                return deform_head(mean_head(), design(), person).mesh.positions;
+            };
+            const Points by = moved(value) - moved(0);
+            double steepest = 0;
+            for (int f = 0; f < mesh.face_count(); ++f)
+                for (int c = mesh.face_begin[f]; c + 1 < mesh.face_begin[f + 1]; ++c) {
+                    const int a = mesh.corner_vertex[c], b = mesh.corner_vertex[c + 1];
+                    const double along = (mesh.positions.row(a) - mesh.positions.row(b)).norm();
+                    if (along > 1)
+                        steepest = std::max(steepest, (by.row(a) - by.row(b)).norm() / along);
+                }
+            EXPECT_LT(steepest, 0.7) << parameter << " " << value;
+            EXPECT_GT(steepest, 0.1) << parameter << " " << value;
+        }
+}
+
+/// A lid opens and closes as an arch: what it moves beside its middle is half of that or more.
+TEST(Person, LidsDroopAsArches) {
+    for (const double opening : {-3.0, 3.0}) {
+        Identity person = of_population(0, 40);
+        const HeadModel usual = deform_head(landmarks_only(), design(), person);
+        person.shape["eye_opening"] = opening;
+        const HeadModel changed = deform_head(landmarks_only(), design(), person);
+        const auto by = [&](const char* id) { return at(changed, id).y() - at(usual, id).y(); };
+        EXPECT_GT(by("ull_l") / by("ps_l"), 0.5);
+        EXPECT_GT(by("ulm_l") / by("ps_l"), 0.4);
+        EXPECT_GT(by("lll_l") / by("pi_l"), 0.4);
+        EXPECT_GT(by("llm_l") / by("pi_l"), 0.4);
+    }
+}
+
 /// Who asked for nothing new gets what was there before, to the byte.
 TEST(Person, SeedsOfTheFamilyGiveTheHeadsTheyGave) {
     const TemporaryFolder folder;

@@ -51,6 +51,7 @@ void run(HeadArguments& arguments) {
     } else if (!arguments.common.quiet) {
         std::printf("%s: %s\n", report.out.string().c_str(), report.identity.name.c_str());
         for (const std::string& file : report.files) std::printf("  %s\n", file.c_str());
+        std::printf("  ITA of the skin: %.0f degrees\n", report.skin_ita_deg);
         std::printf("%s", headmodel::quality_report(report.quality).c_str());
         for (const std::string& note : report.notes) std::printf("note: %s\n", note.c_str());
     }
@@ -139,6 +140,15 @@ void add_head(CLI::App& app) {
                         "Ancestry; the names are below. It means --model 2");
     add_people(*command, *arguments);
     command->add_option("--skin", choice.skin, "Tone of the skin; the names are below");
+    command->add_option("--melanin", choice.melanin,
+                        "Tone of the skin by its melanin instead: 0 for the lightest that was "
+                        "measured, an ITA of 62 degrees, 1 for the darkest, -60 degrees");
+    command->add_option("--haemoglobin", choice.haemoglobin,
+                        "Redness beside --melanin, in standard deviations from the mean of people "
+                        "of this tone, -3 to 3. Default: 0");
+    command->add_option("--skin-gloss", choice.skin_gloss,
+                        "What the skin mirrors, 0 to 2: powdered to oily. Default: 1, or that of "
+                        "the identity");
     command->add_option("--iris", choice.iris, "Colour of the eyes; the names are below");
     command->add_option("--hair", choice.hair, "Colour of brows and hair; the names are below");
     command->add_option("--hair-style", choice.hair_style,

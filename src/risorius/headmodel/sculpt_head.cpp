@@ -13,6 +13,7 @@
 #include "risorius/headmodel/detail/deform_head.h"
 #include "risorius/headmodel/detail/head_textures.h"
 #include "risorius/headmodel/detail/population.h"
+#include "risorius/headmodel/detail/skin_pigments.h"
 #include "risorius/media/image_file.h"
 #include "risorius/render/offscreen_view.h"
 #include "risorius/report/atomic_file.h"
@@ -46,8 +47,9 @@ Json appearance_json(const headmodel::Identity& identity, const headmodel::Desig
     // Skin begins to show its age at 25, and hair is grey at 75.
     constexpr double kYoung = 25, kOld = 75;
     Json out;
-    out["skin_tone"] = tone_json(tables.tones.at("skin").at(identity.skin));
-    out["lip_tone"] = tone_json(tables.tones.at("lips").at(identity.skin));
+    const SkinColours skin = skin_colours(identity, tables);
+    out["skin_tone"] = tone_json(skin.skin);
+    out["lip_tone"] = tone_json(skin.lips);
     out["iris_tone"] = tone_json(tables.tones.at("iris").at(identity.iris));
     out["hair_tone"] = tone_json(tables.tones.at("hair").at(identity.hair));
     out["freckles"] = identity.freckles;
@@ -172,7 +174,19 @@ headmodel::Identity chosen_identity(const IdentityChoice& choice) {
     identity.sex = choice.sex.value_or(identity.sex);
     identity.age = choice.age.value_or(identity.age);
     if (choice.ancestry) identity.ancestry = {{*choice.ancestry, 1}};
-    identity.skin = choice.skin.value_or(identity.skin);
+    if (choice.skin && choice.melanin)
+        throw Error(option_name("melanin"), "a tone by melanin or by " + option_name("skin"),
+                    "both");
+    if (choice.skin) {
+        identity.skin = *choice.skin;
+        identity.melanin.reset();
+        identity.haemoglobin = 0;
+    }
+    if (choice.melanin) identity.melanin = choice.melanin;
+    if (choice.haemoglobin && !identity.melanin)
+        throw Error(option_name("haemoglobin"), option_name("melanin") + " beside it", "none");
+    identity.haemoglobin = choice.haemoglobin.value_or(identity.haemoglobin);
+    identity.hairdo.skin_gloss = choice.skin_gloss.value_or(identity.hairdo.skin_gloss);
     identity.iris = choice.iris.value_or(identity.iris);
     identity.hair = choice.hair.value_or(identity.hair);
     identity.hairdo.style = choice.hair_style.value_or(identity.hairdo.style);
@@ -220,6 +234,7 @@ SculptReport sculpt_head(const SculptOptions& options, const ProgressMonitor& mo
     SculptReport report;
     report.out = options.out;
     report.identity = options.identity;
+    report.skin_ita_deg = skin_colours(options.identity, tables).ita_deg;
     const headmodel::HeadModel model =
         headmodel::deform_head(headmodel::make_head(tables), tables, options.identity);
     headmodel::check_spread(model, tables, options.identity, options.place);
@@ -282,6 +297,7 @@ SculptReport sculpt_head(const SculptOptions& options, const ProgressMonitor& mo
 Json SculptReport::json() const {
     Json json;
     json["identity"] = headmodel::identity_json(identity);
+    json["skin_ita_deg"] = std::round(10 * skin_ita_deg) / 10;
     json["worst_deviation"] = quality.worst_deviation();
     for (const headmodel::MeasureScore& m : quality.measures)
         json["measures"][m.measure] =

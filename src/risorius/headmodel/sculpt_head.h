@@ -32,6 +32,7 @@ struct SculptOptions {
 struct SculptReport {
     std::filesystem::path out;
     headmodel::Identity identity;
+    double skin_ita_deg = 0;  ///< individual typology angle of the skin
     headmodel::HeadQuality quality;
     std::vector<std::string> files;  ///< in the folder, sorted
     std::vector<std::string> notes;  ///< notes of the fit
@@ -52,6 +53,7 @@ struct IdentityChoice {
     std::vector<std::string> average{};     ///< names or files
     std::optional<double> exaggerate{};     ///< factor of what distinguishes the person
     std::optional<std::string> hair_style{}, hairline_form{};
+    std::optional<double> melanin{}, haemoglobin{}, skin_gloss{};
 };
 /// Returns the identity. Throws Error that names the option.
 headmodel::Identity chosen_identity(const IdentityChoice& choice);

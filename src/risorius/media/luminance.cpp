@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "risorius/core/srgb.h"
 #include "risorius/media/detail/srgb_light.h"
 
 namespace risorius::media {
@@ -23,11 +24,8 @@ const std::array<Table, 3>& luminance_of_byte() {
     static const std::array<Table, 3> tables = [] {
         std::array<Table, 3> out{};
         for (std::size_t k = 0; k < 3; ++k)
-            for (std::size_t i = 0; i < 256; ++i) {
-                const double v = static_cast<double>(i) / 255.0;
-                out[k][i] =
-                    kFraction[k] * (v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
-            }
+            for (std::size_t i = 0; i < 256; ++i)
+                out[k][i] = kFraction[k] * linear_of_srgb(static_cast<double>(i) / 255.0);
         return out;
     }();
     return tables;

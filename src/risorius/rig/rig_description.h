@@ -126,6 +126,7 @@ struct AppearanceDescription {
     double grey_hair = 0.0, age_lines = 0.0;
     std::string beard_form = "stubble";
     double brow_density = 1.0, brow_width = 1.0;
+    double skin_gloss = 1.0;
 };
 
 /// What `fit` found for an action unit on this head, so that it moves as far and as evenly as facs.json asks.

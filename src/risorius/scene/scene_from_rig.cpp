@@ -194,7 +194,8 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
                         .grey_hair = rig.appearance.grey_hair,
                         .beard_form = rig.appearance.beard_form,
                         .brow_density = rig.appearance.brow_density,
-                        .brow_width = rig.appearance.brow_width};
+                        .brow_width = rig.appearance.brow_width,
+                        .skin_gloss = rig.appearance.skin_gloss};
     return scene;
 }
 

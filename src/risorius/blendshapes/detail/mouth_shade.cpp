@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "risorius/core/rotations.h"
+#include "risorius/core/srgb.h"
 #include "risorius/geom/closest_point.h"
 
 namespace risorius::blendshapes {
@@ -148,10 +149,6 @@ ShadedPose shaded_pose(const io::MorphModel& model, const Points& pose) {
     return {pose, normals,
             geom::SurfaceTree(pose, Eigen::Map<Triangles>(
                                         corners.data(), static_cast<long>(corners.size() / 3), 3))};
-}
-
-double srgb_of_linear(double value) {
-    return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "risorius/headmodel/detail/deform_head.h"
 #include "risorius/headmodel/detail/draw.h"
 #include "risorius/headmodel/detail/population.h"
+#include "risorius/headmodel/detail/skin_pigments.h"
 
 namespace risorius::headmodel {
 namespace {
@@ -21,12 +22,13 @@ constexpr int kFewest = 2, kMost = 200;
 /// Numbers of the body of a person that are blended like lengths.
 constexpr double Identity::*kBlended[] = {
     &Identity::sex,      &Identity::age,     &Identity::freckles, &Identity::scalp_hair,
-    &Identity::hairline, &Identity::temples, &Identity::beard};
+    &Identity::hairline, &Identity::temples, &Identity::beard,    &Identity::lipstick};
 const std::pair<double IdentityHair::*, Range> kBlendedHair[] = {
     {&IdentityHair::grey, kShareRange},
     {&IdentityHair::age_lines, kShareRange},
     {&IdentityHair::brow_density, kBrowDensityRange},
-    {&IdentityHair::brow_width, kBrowWidthRange}};
+    {&IdentityHair::brow_width, kBrowWidthRange},
+    {&IdentityHair::skin_gloss, kSkinGlossRange}};
 constexpr std::string Identity::*kTones[] = {&Identity::skin, &Identity::iris, &Identity::hair};
 
 bool makes_uneven(const std::string& parameter) {
@@ -103,7 +105,8 @@ void keep_in_range(Identity& person) {
     for (auto& [parameter, value] : person.shape) value = std::clamp(value, range.min, range.max);
     person.sex = std::clamp(person.sex, kSexRange.min, kSexRange.max);
     person.age = std::clamp(person.age, kAgeRange.min, kAgeRange.max);
-    for (const auto member : {&Identity::freckles, &Identity::scalp_hair, &Identity::beard})
+    for (const auto member :
+         {&Identity::freckles, &Identity::scalp_hair, &Identity::beard, &Identity::lipstick})
         person.*member = std::clamp(person.*member, 0.0, 1.0);
     for (const auto member : {&Identity::hairline, &Identity::temples})
         person.*member = std::clamp(person.*member, kHairRange.min, kHairRange.max);
@@ -133,6 +136,18 @@ Identity blended(const std::vector<Identity>& persons, const std::vector<double>
         for (const Identity& person : persons)
             if (votes[name_of(person)] > votes[name_of(out)]) name_of(out) = name_of(person);
     };
+    // Pigments are blended where everybody has them; else there is a name.
+    double melanin = 0, haemoglobin = 0;
+    bool by_pigments = true;
+    for (std::size_t k = 0; k < persons.size(); ++k) {
+        by_pigments = by_pigments && persons[k].melanin;
+        melanin += weights[k] * persons[k].melanin.value_or(0);
+        haemoglobin += weights[k] * persons[k].haemoglobin;
+    }
+    out.melanin.reset();
+    if (by_pigments) out.melanin = std::clamp(melanin, 0.0, 1.0);
+    out.haemoglobin =
+        std::clamp(by_pigments ? haemoglobin : 0.0, kRednessRange.min, kRednessRange.max);
     for (const auto member : kTones) choose([&](auto& person) -> auto& { return person.*member; });
     choose([](auto& person) -> auto& { return person.hairdo.style; });
     choose([](auto& person) -> auto& { return person.hairdo.hairline_form; });
@@ -205,7 +220,7 @@ std::vector<CastMember> choose_cast(const CastOptions& options, const DesignTabl
 }
 
 std::string cast_table(const std::vector<CastMember>& cast, const DesignTables& tables) {
-    std::string text = "name\tsex\tage\tancestry\tseed\tnearest_sd\tnearest_to";
+    std::string text = "name\tsex\tage\tancestry\tskin_ita_deg\tseed\tnearest_sd\tnearest_to";
     for (const Measure& measure : tables.measures) {
         std::string name = measure.name;
         std::replace(name.begin(), name.end(), ' ', '_');
@@ -217,6 +232,7 @@ std::string cast_table(const std::vector<CastMember>& cast, const DesignTables& 
         const Identity& who = member.identity;
         text += who.name + "\t" + (who.sex < 0 ? "female" : "male") + "\t" +
                 format_number(who.age) + "\t" + who.ancestry.begin()->first + "\t" +
+                format_number(std::round(skin_colours(who, tables).ita_deg)) + "\t" +
                 std::to_string(member.seed) + "\t" +
                 format_number(to_hundredths(member.nearest_sd)) + "\t" + member.nearest_to;
         for (const MeasureScore& m :

@@ -49,6 +49,9 @@ void check_identity(const Identity& identity, const DesignTables& tables, const 
     check_range(place("hairline"), identity.hairline, kHairRange);
     check_range(place("temples"), identity.temples, kHairRange);
     check_range(place("beard"), identity.beard, {0, 1});
+    check_range(place("lipstick"), identity.lipstick, {0, 1});
+    if (identity.melanin) check_range(place("melanin"), *identity.melanin, {0, 1});
+    check_range(place("haemoglobin"), identity.haemoglobin, kRednessRange);
     check_identity_hair(identity.hairdo, place);
     const auto names = shape_parameters(tables, identity.model);
     const bool person = identity.model == Model::kPopulation;
@@ -74,9 +77,10 @@ void check_identity(const Identity& identity, const DesignTables& tables, const 
 
 Identity read_identity(const std::filesystem::path& file, const DesignTables& tables) {
     const JsonCursor json = JsonCursor::read_file(file);
-    std::vector<std::string_view> keys{
-        "format", "version", "name", "model",    "ancestry",   "sex",      "age",     "shape",
-        "skin",   "iris",    "hair", "freckles", "scalp_hair", "hairline", "temples", "beard"};
+    std::vector<std::string_view> keys{"format", "version",  "name",        "model",    "ancestry",
+                                       "sex",    "age",      "shape",       "skin",     "iris",
+                                       "hair",   "freckles", "scalp_hair",  "hairline", "temples",
+                                       "beard",  "melanin",  "haemoglobin", "lipstick"};
     keys.insert(keys.end(), identity_hair_keys().begin(), identity_hair_keys().end());
     json.allow_keys(keys);
     json.at("format").one_of({"risorius-identity"});
@@ -103,6 +107,15 @@ Identity read_identity(const std::filesystem::path& file, const DesignTables& ta
         if (json.has(key)) value = json.at(key).string();
     };
     word("skin", identity.skin);
+    if (json.has("melanin")) {
+        if (json.has("skin"))
+            throw Error(json.at("melanin").place(), "a tone by melanin or by skin", "both");
+        identity.melanin = json.at("melanin").number();
+    }
+    if (json.has("haemoglobin") && !identity.melanin)
+        throw Error(json.at("haemoglobin").place(), "melanin beside it", "none");
+    number("haemoglobin", identity.haemoglobin);
+    number("lipstick", identity.lipstick);
     word("iris", identity.iris);
     word("hair", identity.hair);
     identity.hairdo = read_identity_hair(json);
@@ -125,7 +138,13 @@ Json identity_json(const Identity& identity) {
     json["age"] = identity.age;
     json["shape"] = Json::object();
     for (const auto& [parameter, value] : identity.shape) json["shape"][parameter] = value;
-    json["skin"] = identity.skin;
+    if (identity.melanin) {
+        json["melanin"] = *identity.melanin;
+        json["haemoglobin"] = identity.haemoglobin;
+    } else {
+        json["skin"] = identity.skin;
+    }
+    if (identity.lipstick != 0) json["lipstick"] = identity.lipstick;
     json["iris"] = identity.iris;
     json["hair"] = identity.hair;
     json["freckles"] = identity.freckles;

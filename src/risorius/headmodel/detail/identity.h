@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@
 
 namespace risorius::headmodel {
 
-inline constexpr Range kSexRange{-1, 1}, kAgeRange{20, 80}, kShapeRange{-2, 2}, kHairRange{-10, 40};
+inline constexpr Range kSexRange{-1, 1}, kAgeRange{20, 80}, kShapeRange{-2, 2}, kHairRange{-10, 40},
+    kRednessRange{-3, 3};
 /// Of persons of the population: those drawn are within 2.5, and caricatures beyond.
 inline constexpr Range kPersonShapeRange{-4, 4};
 
@@ -35,7 +37,11 @@ struct Identity {
     /// Name of a parameter -> its value in standard deviations; a parameter that is absent is 0
     std::map<std::string, double> shape;
     std::string skin = "fair", iris = "blue", hair = "brown";  ///< names of the tones table
-    double freckles = 0.15;                                    ///< 0..1, as the others below
+    /// The tone of the skin by its pigments, instead of by name: see skin_pigments.h
+    std::optional<double> melanin;
+    double haemoglobin = 0;  ///< only with melanin
+    double lipstick = 0;     ///< 0..1, how much the lips are painted red
+    double freckles = 0.15;  ///< 0..1, as the others below
     double scalp_hair = 0.6;
     double hairline = 0;  ///< mm: how much higher than average the hair begins on the forehead
     double temples = 0;   ///< mm: how much farther it recedes at the temples

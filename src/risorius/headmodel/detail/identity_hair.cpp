@@ -14,7 +14,7 @@ namespace risorius::headmodel {
 const std::vector<std::string_view>& identity_hair_keys() {
     static const std::vector<std::string_view> keys{"hair_style",   "hairline_form", "grey_hair",
                                                     "age_lines",    "seed",          "beard_form",
-                                                    "brow_density", "brow_width"};
+                                                    "brow_density", "brow_width",    "skin_gloss"};
     return keys;
 }
 
@@ -29,6 +29,7 @@ IdentityHair read_identity_hair(const JsonCursor& json) {
     if (json.has("brow_density"))
         hair.brow_density = json.at("brow_density").number(kBrowDensityRange);
     if (json.has("brow_width")) hair.brow_width = json.at("brow_width").number(kBrowWidthRange);
+    if (json.has("skin_gloss")) hair.skin_gloss = json.at("skin_gloss").number(kSkinGlossRange);
     return hair;
 }
 
@@ -40,6 +41,8 @@ void check_identity_hair(const IdentityHair& hair,
     for (const auto& [key, value] :
          {std::pair{"grey_hair", hair.grey}, std::pair{"age_lines", hair.age_lines}})
         if (!(value >= 0 && value <= 1)) throw Error(place(key), "[0, 1]", format_number(value));
+    if (!(hair.skin_gloss >= kSkinGlossRange.min && hair.skin_gloss <= kSkinGlossRange.max))
+        throw Error(place("skin_gloss"), "[0, 2]", format_number(hair.skin_gloss));
 }
 
 void write_identity_hair(const IdentityHair& hair, Json& json) {
@@ -52,6 +55,7 @@ void write_identity_hair(const IdentityHair& hair, Json& json) {
     if (hair.beard_form != usual.beard_form) json["beard_form"] = hair.beard_form;
     if (hair.brow_density != usual.brow_density) json["brow_density"] = hair.brow_density;
     if (hair.brow_width != usual.brow_width) json["brow_width"] = hair.brow_width;
+    if (hair.skin_gloss != usual.skin_gloss) json["skin_gloss"] = hair.skin_gloss;
 }
 
 }  // namespace risorius::headmodel

@@ -11,7 +11,8 @@
 
 namespace risorius::headmodel {
 
-inline constexpr Range kShareRange{0, 1}, kBrowDensityRange{0, 3}, kBrowWidthRange{0.3, 2};
+inline constexpr Range kShareRange{0, 1}, kBrowDensityRange{0, 3}, kBrowWidthRange{0.3, 2},
+    kSkinGlossRange{0, 2};
 
 struct IdentityHair {
     std::string style = "shaven";        ///< a name of render::hair_style_names()
@@ -22,6 +23,7 @@ struct IdentityHair {
     std::string beard_form = "stubble";  ///< a name of render::beard_form_names()
     double brow_density = 1;             ///< 0..3, hairs of the brows against the usual number
     double brow_width = 1;               ///< 0.3..2, height of the brows against the usual one
+    double skin_gloss = 1;  ///< 0..2, what the skin mirrors against the usual: powdered to oily
     bool operator==(const IdentityHair&) const = default;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kCut = 2.5;  ///< standard deviations; beyond them nobody is drawn
 constexpr double kBaldTemples_mm = 11;
-constexpr unsigned kHairSequence = 0x5eed0000;
+constexpr unsigned kHairSequence = 0x5eed0000, kSkinSequence = 0x5c1d0000;
 
 /// Tones that are usual, from the names of the tones table, in thirds.
 struct Colours {
@@ -97,6 +97,29 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
     }
 }
 
+/// Melanin of an ancestry: mean and spread of facial skin as in ISSA (2025), for South Asian faces an estimate.
+struct Melanin {
+    double mean, sd;
+};
+
+Melanin melanin_of(const std::string& ancestry) {
+    if (ancestry == "african") return {0.80, 0.16};
+    if (ancestry == "east_asian") return {0.27, 0.10};
+    if (ancestry == "south_asian") return {0.47, 0.14};
+    return {0.20, 0.10};
+}
+
+/// The tone of the skin by its pigments, and how much it shines: less with the years (Pochi et al. 1979). It has a sequence of its own.
+void draw_skin(unsigned seed, const std::string& ancestry, Identity& person) {
+    Draw draw(seed + kSkinSequence);
+    const auto normal = [&] { return std::clamp(draw.normal(), -2.0, 2.0); };
+    const Melanin melanin = melanin_of(ancestry);
+    person.melanin = to_hundredths(std::clamp(melanin.mean + melanin.sd * normal(), 0.0, 1.0));
+    person.haemoglobin = to_hundredths(normal());
+    const double dry = 1 - 0.3 * std::clamp((person.age - 40) / 40, 0.0, 1.0);
+    person.hairdo.skin_gloss = to_hundredths(dry * (0.75 + 0.15 * normal()));
+}
+
 }  // namespace
 
 std::map<std::string, double> person_shape(const Identity& identity, const DesignTables& tables) {
@@ -139,6 +162,7 @@ Identity random_person(unsigned seed, const PersonChoice& choice, const DesignTa
     }
     draw_colours(draw, ancestry, person);
     draw_hair(seed, ancestry, tables, person);
+    draw_skin(seed, ancestry, person);
     return person;
 }
 

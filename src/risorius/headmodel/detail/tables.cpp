@@ -282,6 +282,24 @@ void read_hair_styles(const std::filesystem::path& file, DesignTables& tables) {
     }
 }
 
+std::vector<PigmentTone> read_skin_pigments(const std::filesystem::path& file) {
+    const auto cells = read_csv(file);
+    std::vector<PigmentTone> tones;
+    for (std::size_t r = 1; r < cells.size(); ++r) {
+        const std::string row = file.string() + ": row " + std::to_string(r + 1);
+        if (cells[r].size() != 6) throw Error(row, "6 cells", std::to_string(cells[r].size()));
+        const auto cell = [&](std::size_t k) { return number(file, cells[r][k]); };
+        tones.push_back({cell(0), cell(1), Vec3(cell(2), cell(3), cell(4)), cell(5)});
+        if (!(tones.back().albedo.minCoeff() > 0))
+            throw Error(row, "an albedo above 0", format_number(tones.back().albedo.minCoeff()));
+        if (tones.size() > 1 && !(tones.back().melanin > tones[tones.size() - 2].melanin))
+            throw Error(row, "more melanin than in the row before", cells[r][0]);
+    }
+    if (tones.size() < 2 || tones.front().melanin != 0 || tones.back().melanin != 1)
+        throw Error(file.string(), "rows from melanin 0 to 1", "others");
+    return tones;
+}
+
 }  // namespace
 
 std::filesystem::path models_folder() { return data_folder() / "models"; }
@@ -315,6 +333,7 @@ DesignTables read_design_tables(const std::filesystem::path& folder) {
     tables.population_handles = read_handles(folder / "population_handles.csv", kPopulationKinds);
     read_population(folder / "population.csv", tables);
     read_hair_styles(folder / "hair_styles.csv", tables);
+    tables.skin_pigments = read_skin_pigments(folder / "skin_pigments.csv");
     const auto tones = folder / "tones.csv";
     for (const auto& row : read_csv(tones))
         if (row.size() == 5 && row[0] != "part")

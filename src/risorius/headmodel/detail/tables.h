@@ -75,6 +75,13 @@ struct HairChance {
     std::vector<double> ancestry;  ///< weight in each, in the order of the ancestries
 };
 
+/// Skin of one melanin content.
+struct PigmentTone {
+    double melanin, ita_deg;
+    Vec3 albedo;         ///< linear
+    double haemoglobin;  ///< absorption of a standard deviation of redness
+};
+
 /// Effect of one parameter on the average head: everything within `reach` of a place is moved along `by`, or scaled about it, on both sides.
 /// kNear acts in front of the globe, but not on the edge of the lid, and kCorner also there; the lean ones move the sides against each other.
 struct Handle {
@@ -120,6 +127,7 @@ struct DesignTables {
     std::vector<HairChance> hair_styles;                       ///< of drawn persons
     std::vector<PopulationParameter> population;               ///< in the order of its table
     std::map<std::string, std::map<std::string, Vec3>> tones;  ///< part, name: sRGB 0..1
+    std::vector<PigmentTone> skin_pigments;                    ///< by rising melanin, 0 to 1
 };
 
 /// The folder `models` of the data folder.

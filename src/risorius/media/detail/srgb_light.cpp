@@ -5,26 +5,23 @@
 #include <cmath>
 #include <vector>
 
+#include "risorius/core/srgb.h"
+
 namespace risorius::media::detail {
 
 namespace {
 
 /// sRGB of linear light, 0..1.
-double encoded(double light) {
-    const double v = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
-    return std::clamp(v, 0.0, 1.0);
-}
-
-double decoded(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
+double encoded(double light) { return std::clamp(srgb_of_linear(light), 0.0, 1.0); }
 
 }  // namespace
 
-double light_of_srgb(int byte) { return decoded(byte / 255.0); }
+double light_of_srgb(int byte) { return linear_of_srgb(byte / 255.0); }
 
 double light_of_deep_srgb(std::uint16_t value) {
     static const std::vector<double> table = [] {
         std::vector<double> out;
-        for (int i = 0; i < 65536; ++i) out.push_back(decoded(i / 65535.0));
+        for (int i = 0; i < 65536; ++i) out.push_back(linear_of_srgb(i / 65535.0));
         return out;
     }();
     return table[value];

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "risorius/core/srgb.h"
 #include "risorius/core/types.h"
 
 namespace risorius::render {
@@ -21,10 +22,10 @@ inline void blend(std::uint8_t* pixel, const Vec3& srgb, double cover) {
     pixel[3] = static_cast<std::uint8_t>(std::lround(255 * alpha));
 }
 
-/// Encodes linear light as sRGB, both 0..1, by the transfer function of IEC 61966-2-1.
+using risorius::srgb_of_linear;
+/// Encodes linear light as sRGB, both 0..1.
 inline Vec3 srgb_of_linear(const Vec3& linear) {
-    return linear.unaryExpr(
-        [](double l) { return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055; });
+    return linear.unaryExpr([](double light) { return risorius::srgb_of_linear(light); });
 }
 
 }  // namespace risorius::render

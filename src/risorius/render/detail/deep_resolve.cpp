@@ -4,16 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "risorius/core/srgb.h"
 #include "risorius/render/detail/blend.h"
 
 namespace risorius::render {
 
 DeepResolve::DeepResolve(const Background& background) : transparent_(background.transparent) {
-    const auto linear = [](double s) {  // IEC 61966-2-1
-        return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-    };
     for (std::size_t k = 0; k < 3; ++k)
-        background_[k] = linear(std::clamp(background.rgb[k], 0.0, 1.0));
+        background_[k] = linear_of_srgb(std::clamp(background.rgb[k], 0.0, 1.0));
 }
 
 void DeepResolve::resolve(const std::vector<float>& samples, int supersampling, const Tile& tile,

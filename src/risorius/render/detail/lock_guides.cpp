@@ -109,14 +109,15 @@ Vec3 LockGround::flow(const Vec3& at) const {
 
 void LockGround::finish(std::vector<Vec3> way, const Vec3& across, double phase,
                         LockGuide& guide) const {
-    // Resampled at even steps, with curl or wave added
+    // Resampled, with curl or wave added. Steps are even, or grow where hair hangs straight in the end.
+    const double evenness = style_.hangs ? 1.35 : 1;
     double whole = 0;
     for (std::size_t i = 1; i < way.size(); ++i) whole += (way[i] - way[i - 1]).norm();
     const double curl = 1e-3 * style_.curl_mm, pitch = 1e-3 * style_.pitch_mm;
     double passed = 0;
     std::size_t i = 1;
     for (int k = 0; k <= guide.segments; ++k) {
-        const double want = whole * k / guide.segments;
+        const double want = whole * std::pow(static_cast<double>(k) / guide.segments, evenness);
         while (i + 1 < way.size() && passed + (way[i] - way[i - 1]).norm() < want) {
             passed += (way[i] - way[i - 1]).norm();
             ++i;

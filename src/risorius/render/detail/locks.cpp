@@ -32,12 +32,38 @@ struct LockChance {
     double tone, along, across;
 };
 
+/// The end of a lock: pointed strands side by side, each of its own length. `end`: the last vertices across the lock.
+void add_ends(std::vector<HairVertex> end, double length_m, RandomSequence& random, Hair& hair) {
+    constexpr int kStrands = 3;
+    const HairVertex &first = end.front(), &last = end.back();
+    const auto between = [&](double share) {
+        HairVertex v = first;
+        v.offset += share * (last.offset - first.offset);
+        v.out = (first.out + share * (last.out - first.out)).normalized();
+        v.strand += share * (last.strand - first.strand);
+        return v;
+    };
+    for (int k = 0; k < kStrands; ++k) {
+        const double middle = (k + 0.2 + 0.6 * random.next()) / kStrands, half = 0.7 / kStrands,
+                     length = length_m * (0.25 + random.next() * random.next() * 1.5),
+                     stray = 0.25 * (random.next() - 0.5);
+        const auto at = static_cast<unsigned>(hair.vertices.size());
+        hair.vertices.push_back(between(std::max(middle - half, 0.0)));
+        hair.vertices.push_back(between(std::min(middle + half, 1.0)));
+        HairVertex tip = between(middle);
+        tip.offset += length * (tip.along + stray * (last.offset - first.offset).normalized());
+        tip.strand.y() += length / kStrandsAlong_m;
+        hair.vertices.push_back(tip);
+        hair.triangles.insert(hair.triangles.end(), {at, at + 1, at + 2});
+    }
+}
+
 void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
-              const LockChance& chance, Hair& hair) {
+              const LockChance& chance, RandomSequence& random, Hair& hair) {
     const std::size_t rows = guide.points.size(), columns = static_cast<std::size_t>(style.across);
-    HairPiece piece{hair.triangles.size(), 0,       hair.vertices.size(),
-                    columns * rows,        columns, !guide.hangs,
-                    !guide.single};
+    HairPiece piece{
+        hair.triangles.size(), 0, hair.vertices.size(), columns * rows, columns, rows, !guide.hangs,
+        !guide.single};
     const double half = 0.5e-3 * style.width_mm * guide.width * (0.75 + 0.5 * chance.tone);
     double along_m = kStrandsAlong_m * chance.along;
     hair.roots.push_back(guide.root);
@@ -76,6 +102,11 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
             const unsigned a = first + row * i + k, b = a + 1, c = a + row, d = c + 1;
             hair.triangles.insert(hair.triangles.end(), {a, b, d, a, d, c});
         }
+    if (style.fray_mm > 0 && !guide.single) {
+        add_ends({hair.vertices.end() - static_cast<std::ptrdiff_t>(columns), hair.vertices.end()},
+                 1e-3 * style.fray_mm, random, hair);
+        piece.vertices = hair.vertices.size() - piece.first_vertex;
+    }
     piece.indices = hair.triangles.size() - piece.first_index;
     hair.pieces.push_back(piece);
 }
@@ -111,7 +142,7 @@ void add_cap(const LockGround& ground, const LockStyle& style, const Scene& scen
     const Vec3 pole = ground.whorl(), centre = ground.head().centre(),
                right = pole.cross(Vec3::UnitZ()).normalized(), ahead = right.cross(pole);
     if (!ground.grows(pole, kInside_m)) return;
-    HairPiece piece{hair.triangles.size(), 0, hair.vertices.size(), 0, 0, false};
+    HairPiece piece{hair.triangles.size(), 0, hair.vertices.size(), 0, 0, 0, false};
     std::vector<double> reaches;
     for (int column = 0; column <= kCapColumns; ++column) {
         const double turn = 2 * std::numbers::pi * column / kCapColumns;
@@ -168,7 +199,7 @@ void add_casters(Hair& hair) {
         if (!piece.casts || number++ % 3 != 0) continue;
         const auto first = static_cast<unsigned>(piece.first_vertex),
                    columns = static_cast<unsigned>(piece.columns),
-                   rows = static_cast<unsigned>(piece.vertices) / columns;
+                   rows = static_cast<unsigned>(piece.rows);
         const unsigned step = rows > 4 ? 2 : 1;
         for (unsigned row = 0; row + step < rows; row += step) {
             const unsigned a = first + columns * row, b = a + columns - 1, c = a + step * columns,
@@ -192,7 +223,7 @@ Hair plan_hair(const Scene& scene, const SkinPlan& plan, const Vec3& paint_centr
                      [](const LockGuide& a, const LockGuide& b) { return a.layer > b.layer; });
     for (const LockGuide& guide : guides) {
         const LockChance chance{random.next(), random.next(), random.next()};
-        add_lock(guide, *style, guide.root.on(scene.rest), chance, hair);
+        add_lock(guide, *style, guide.root.on(scene.rest), chance, random, hair);
     }
     add_casters(hair);
     add_cap(ground, *style, scene, hair);

@@ -28,6 +28,7 @@ struct HairVertex {
 struct HairPiece {
     std::size_t first_index = 0, indices = 0, first_vertex = 0, vertices = 0;
     std::size_t columns = 0;  ///< vertices across a lock; 0: the cap
+    std::size_t rows = 0;     ///< of so many vertices; those of its ends come after them
     bool turns_away = true;   ///< may be left out where it faces away from the camera
     bool casts = true;        ///< counts for the shadow
 };

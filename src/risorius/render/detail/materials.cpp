@@ -126,6 +126,7 @@ ShaderConstants Materials::constants_of(const Scene& scene, Material material, i
             // half a millimetre, shows no colour.
             constants.set("bleed", Vec3(140 * (scatter.array() - scatter.minCoeff()).matrix()));
             constants.set("roughness", kSkinRoughness);
+            constants.set("skin_gloss", appearance_.skin_gloss);
             constants.set("tone", skin.dot(Vec3(0.2126, 0.7152, 0.0722)));
             break;
         case Material::kEye:

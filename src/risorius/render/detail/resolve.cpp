@@ -5,16 +5,10 @@
 #include <cmath>
 #include <cstring>
 
+#include "risorius/core/srgb.h"
+
 namespace risorius::render {
 namespace {
-
-// IEC 61966-2-1
-double linear_of_srgb(double s) {
-    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-}
-double srgb_of_linear(double l) {
-    return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
-}
 
 /// Whether the n x n samples starting at `first` are equal, byte for byte.
 bool is_even(const std::uint8_t* first, std::size_t n, std::size_t sample_row) {

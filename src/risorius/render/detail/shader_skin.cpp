@@ -24,6 +24,7 @@ layout(binding = 1) uniform sampler2D paint_map;   // square root of albedo; a: 
 uniform vec3 scatter;      // m, of red, green and blue
 uniform vec3 bleed;        // of the shadow's edge
 uniform float roughness;
+uniform float skin_gloss;
 // Of the light in a hollow: what comes out again has been in the skin more than once.
 const vec3 kHollow = vec3(0.40, 0.27, 0.23);
 // Where it begins, some comes through thin walls from outside, red.
@@ -57,7 +58,7 @@ void main() {
     diffuse += kThroughWalls * (4.0 * hollow * (1.0 - hollow));
     gloss += soft_gloss * (open * open * turned * turned * hollow * hollow);
     vec3 skin = seen_through(albedo * diffuse, diffuse, albedo, oil, 1.0 - clamp(dot(n, v), 0.0, 1.0), sky_seen);
-    colour = vec4(shown(skin + gloss * kGloss * (0.52 + 0.80 * oil) * smoothstep(-0.03, 0.15, oil)), told());
+    colour = vec4(shown(skin + gloss * (kGloss * skin_gloss) * (0.52 + 0.80 * oil) * smoothstep(-0.03, 0.15, oil)), told());
 }
 )";
 
@@ -120,6 +121,7 @@ constexpr const char* kDraft = R"(
 layout(binding = 0) uniform sampler2DShadow shadow_map;
 layout(binding = 1) uniform sampler2D paint_map;   // square root of albedo; a: oil
 uniform vec3 bleed;        // of the shadow's edge
+uniform float skin_gloss;
 in vec2 paint;
 in vec3 soft;
 in vec3 soft_gloss;
@@ -138,7 +140,7 @@ void main() {
     s += (0.5 - float(q.y)) * dFdyFine(s);
     vec3 diffuse = key_light * (s + s * (1.0 - s) * bleed) + soft;
     vec3 gloss = key_card.rgb * (s * key_gloss) + soft_gloss;
-    colour = vec4(shown(albedo * diffuse + gloss * (0.52 + 0.80 * oil) * smoothstep(-0.03, 0.15, oil)), told());
+    colour = vec4(shown(albedo * diffuse + gloss * skin_gloss * (0.52 + 0.80 * oil) * smoothstep(-0.03, 0.15, oil)), told());
 }
 )";
 

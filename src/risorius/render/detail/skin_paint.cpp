@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "risorius/core/srgb.h"
 #include "risorius/render/detail/crease_strokes.h"
 #include "risorius/render/detail/gl_context.h"
 #include "risorius/render/detail/own_textures.h"
@@ -91,8 +92,7 @@ void set_plan(const GlProgram& program, const SkinPlan& plan, const Appearance& 
 }  // namespace
 
 Vec3 linear_from_srgb(const Vec3& srgb) {
-    return srgb.unaryExpr(
-        [](double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); });
+    return srgb.unaryExpr([](double encoded) { return linear_of_srgb(encoded); });
 }
 
 Vec2 paint_place(const Vec3& rest, const Vec3& centre) {

@@ -5,12 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "risorius/core/srgb.h"
+
 namespace risorius::render {
 
 std::uint8_t srgb_byte(double linear) {
-    const double s =
-        linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(s, 0.0, 1.0)));
+    return static_cast<std::uint8_t>(
+        std::lround(255 * std::clamp(risorius::srgb_of_linear(linear), 0.0, 1.0)));
 }
 
 void fill_uncovered(Image& image, const Vec3& otherwise) {

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "risorius/headmodel/detail/skin_pigments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "risorius/core/srgb.h"
+
+namespace risorius::headmodel {
+namespace {
+
+constexpr double kSurface = 0.028;  ///< share of the light that the surface reflects
+
+/// To hundredths of a percent: files stay short.
+Vec3 encoded(const Vec3& colour) {
+    return colour.unaryExpr([](double c) { return std::round(1e4 * srgb_of_linear(c)) / 1e4; });
+}
+
+}  // namespace
+
+double typology_angle_deg(const Vec3& tone) {
+    // CIELAB under D65 (IEC 61966-2-1, CIE 15): L* = 116 f(Y) - 16, b* = 200 (f(Y) - f(Z))
+    const Vec3 colour = tone.unaryExpr([](double c) { return linear_of_srgb(c) + kSurface; });
+    const double y = colour.dot(Vec3(0.2126729, 0.7151522, 0.0721750));
+    const double z = colour.dot(Vec3(0.0193339, 0.1191920, 0.9503041)) / 1.08883;
+    const auto f = [](double t) {
+        return t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116;
+    };
+    return std::atan2(116 * f(y) - 66, 200 * (f(y) - f(z))) * 180 / std::numbers::pi;
+}
+
+SkinColours skin_colours(const Identity& identity, const DesignTables& tables) {
+    constexpr double kCover = 0.8;
+    const Vec3 red(0.55, 0.13, 0.17);  // sRGB
+    SkinColours colours;
+    if (identity.melanin) {
+        colours = skin_colours(*identity.melanin, identity.haemoglobin, tables);
+    } else {
+        const Vec3& skin = tables.tones.at("skin").at(identity.skin);
+        colours = {skin, tables.tones.at("lips").at(identity.skin), typology_angle_deg(skin)};
+    }
+    if (identity.lipstick > 0) colours.lips += kCover * identity.lipstick * (red - colours.lips);
+    return colours;
+}
+
+SkinColours skin_colours(double melanin, double haemoglobin, const DesignTables& tables) {
+    const auto& rows = tables.skin_pigments;
+    std::size_t next = 1;
+    while (next + 1 < rows.size() && melanin > rows[next].melanin) ++next;
+    const PigmentTone &from = rows[next - 1], &to = rows[next];
+    const double t = std::clamp((melanin - from.melanin) / (to.melanin - from.melanin), 0.0, 1.0);
+    const double h = haemoglobin * ((1 - t) * from.haemoglobin + t * to.haemoglobin);
+    const Vec3 absorbed = h * Vec3(0.42, 1, 0.96);
+    // Between rows pigments multiply.
+    const Vec3 cheek =
+        ((1 - t) * from.albedo.array().log() + t * to.albedo.array().log() - absorbed.array())
+            .exp();
+    const Vec3 caucasian(0.425, 0.241, 0.167), african(0.154, 0.066, 0.032);
+    const Vec3 lips_of_caucasian(0.311, 0.112, 0.094), lips_of_african(0.134, 0.061, 0.050);
+    const Vec3 exponent = (lips_of_caucasian.array() / lips_of_african.array()).log() /
+                          (caucasian.array() / african.array()).log();
+    const Vec3 lips =
+        lips_of_caucasian.array() * (cheek.array() / caucasian.array()).pow(exponent.array());
+    SkinColours colours{encoded(cheek), encoded(lips), 0};
+    colours.ita_deg = typology_angle_deg(colours.skin);
+    return colours;
+}
+
+}  // namespace risorius::headmodel
