@@ -7,6 +7,7 @@
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/headmodel/sculpt_head.h"
+#include "risorius/render/garments.h"
 #include "risorius/render/hair_styles.h"
 #include "tools/risorius/commands.h"
 
@@ -146,6 +147,13 @@ void add_head(CLI::App& app) {
     command->add_option("--haemoglobin", choice.haemoglobin,
                         "Redness beside --melanin, in standard deviations from the mean of people "
                         "of this tone, -3 to 3. Default: 0");
+    command->add_option("--garment", choice.garment,
+                        "What the shoulders wear:" + listed(render::garment_names()));
+    command
+        ->add_option("--garment-tone", choice.garment_tone,
+                     "Its colour: red, green and blue, each from 0 to 1, as in 0.2,0.3,0.4")
+        ->delimiter(',')
+        ->expected(3);
     command->add_option("--skin-gloss", choice.skin_gloss,
                         "What the skin mirrors, 0 to 2: powdered to oily. Default: 1, or that of "
                         "the identity");

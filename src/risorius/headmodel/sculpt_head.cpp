@@ -187,6 +187,9 @@ headmodel::Identity chosen_identity(const IdentityChoice& choice) {
         throw Error(option_name("haemoglobin"), option_name("melanin") + " beside it", "none");
     identity.haemoglobin = choice.haemoglobin.value_or(identity.haemoglobin);
     identity.hairdo.skin_gloss = choice.skin_gloss.value_or(identity.hairdo.skin_gloss);
+    identity.hairdo.garment = choice.garment.value_or(identity.hairdo.garment);
+    if (choice.garment_tone.size() == 3)
+        identity.hairdo.garment_tone = Eigen::Map<const Vec3>(choice.garment_tone.data());
     identity.iris = choice.iris.value_or(identity.iris);
     identity.hair = choice.hair.value_or(identity.hair);
     identity.hairdo.style = choice.hair_style.value_or(identity.hairdo.style);

@@ -53,6 +53,8 @@ struct IdentityChoice {
     std::vector<std::string> average{};     ///< names or files
     std::optional<double> exaggerate{};     ///< factor of what distinguishes the person
     std::optional<std::string> hair_style{}, hairline_form{};
+    std::optional<std::string> garment{};
+    std::vector<double> garment_tone{};  ///< red, green, blue; empty: that of the identity
     std::optional<double> melanin{}, haemoglobin{}, skin_gloss{};
 };
 /// Returns the identity. Throws Error that names the option.

@@ -18,7 +18,6 @@
 #include "risorius/render/detail/framebuffer.h"
 #include "risorius/render/detail/gl_context.h"
 #include "risorius/render/detail/lights.h"
-#include "risorius/render/detail/lock_layer.h"
 #include "risorius/render/detail/materials.h"
 #include "risorius/render/detail/muscle_layer.h"
 #include "risorius/render/detail/occlusion.h"
@@ -36,6 +35,7 @@
 #include "risorius/render/detail/strand_layer.h"
 #include "risorius/render/detail/tear_layer.h"
 #include "risorius/render/detail/texture_square.h"
+#include "risorius/render/detail/worn_layer.h"
 #include "risorius/render/value_colour.h"
 
 namespace risorius::render {
@@ -141,10 +141,9 @@ struct OffscreenView::Impl {
         buffers->set_occlusion(baked->sky, baked->inside);
         const double sample_m = camera.frame_height_m / (options.height_px * options.supersampling);
         hair = std::make_unique<StrandLayer>(scene, baked->hair, camera, sample_m, lit);
-        locks = std::make_unique<LockLayer>(
-            scene, looks_inside() ? Hair{} : plan_hair(scene, plan_skin(scene, centre), centre),
-            camera, lit, shaded_per_side() < options.supersampling);
-        buffers->hide(locks->covered());
+        worn = std::make_unique<WornLayer>(scene, looks_inside(), centre, camera, lit,
+                                           shaded_per_side() < options.supersampling);
+        buffers->hide(worn->covered());
         sockets = std::make_unique<SocketLayer>(scene, marks, lit);
         tears = std::make_unique<TearLayer>(scene, lit);
         buffers->bind();
@@ -221,7 +220,7 @@ struct OffscreenView::Impl {
         lights.reset();
         materials.reset();
         hair.reset();
-        locks.reset();
+        worn.reset();
         tears.reset();
         sockets.reset();
         shells.reset();
@@ -238,7 +237,7 @@ struct OffscreenView::Impl {
         skin_layer->use();
         for (const Batch& batch : buffers->batches())
             if (batch.material == Material::kSkin) buffers->draw(batch);
-        locks->look_up(cells);
+        worn->look_up(cells);
         buffers->bind();
     }
 
@@ -256,7 +255,7 @@ struct OffscreenView::Impl {
             }
         }
         materials->done();
-        if (!pose.values && !looked_up) locks->draw();
+        if (!pose.values && !looked_up) worn->draw();
         sockets->draw();
         buffers->bind();
         shells->draw();
@@ -277,7 +276,7 @@ struct OffscreenView::Impl {
         const bool looked_up = skin_layer && !pose.values;
         if (looked_up) {
             skin_layer->begin(tile.width, tile.height);
-            locks->draw();  // before the skin, which is then not shaded where hair hides it
+            worn->draw();  // before the skin, which is then not shaded where it is hidden
             buffers->bind();
             for (const Batch& batch : buffers->batches())
                 if (batch.material == Material::kSkin) materials->draw_skin(batch, *buffers);
@@ -285,7 +284,7 @@ struct OffscreenView::Impl {
             buffers->leave_out_unseen(*skin_layer, cells, [&](PictureCells& marked) {
                 if (!shells->empty()) marked.mark_all();
                 hair->mark(clip, marked);
-                locks->touch(clip, marked);
+                worn->touch(clip, marked);
                 tears->mark(clip, marked);
                 sockets->mark(clip, marked);
             });
@@ -335,7 +334,7 @@ struct OffscreenView::Impl {
     std::unique_ptr<BoneLayer> bones;      ///< only with Show::kSkull
     std::unique_ptr<Materials> materials;
     std::unique_ptr<StrandLayer> hair;
-    std::unique_ptr<LockLayer> locks;
+    std::unique_ptr<WornLayer> worn;
     std::unique_ptr<SocketLayer> sockets;
     std::unique_ptr<TearLayer> tears;
     std::unique_ptr<ShellLayer> shells;
@@ -384,7 +383,7 @@ Image OffscreenView::draw(const Pose& pose) {
     if (view.muscles) view.muscles->upload(pose);
     if (view.bones) view.bones->upload(pose);
     view.hair->upload(pose, view.marks);
-    if (!pose.values) view.locks->upload(pose);
+    if (!pose.values) view.worn->upload(pose);
     view.tears->upload(pose, view.marks);
     view.sockets->upload(pose, view.marks);
 
@@ -392,7 +391,7 @@ Image OffscreenView::draw(const Pose& pose) {
     FrameUniforms frame = view.lights->uniforms(view.marks.mouth_gap(pose));
     const Eigen::Matrix4f seen = view.views.front().cast<float>();
     view.lights->draw_shadow(*view.buffers, view.views.size() == 1 ? &seen : nullptr,
-                             pose.values ? nullptr : view.locks.get());
+                             pose.values ? nullptr : &view.worn->locks());
     glActiveTexture(GL_TEXTURE0 + kPaintUnit);
     glBindTexture(GL_TEXTURE_2D, view.baked->paint_map);
     glActiveTexture(GL_TEXTURE0 + kPoreUnit);

@@ -79,8 +79,10 @@ struct Appearance {
     std::string beard_form = "stubble";
     double brow_density = 1.0;  ///< hairs of the brows as a multiple of the usual number
     double brow_width = 1.0;    ///< height of the brows as a multiple of the usual one
-    double skin_gloss =
-        1.0;  ///< 0..2, what the skin mirrors as a multiple of the usual: powdered to oily
+    /// 0..2, what the skin mirrors as a multiple of the usual: powdered to oily
+    double skin_gloss = 1.0;
+    std::string garment = "none";  ///< a name of garment_names(): what the shoulders wear
+    Vec3 garment_tone{0.30, 0.32, 0.36};
 };
 
 /// A muscle below the skin: a closed surface.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "risorius/core/error.h"
+#include "risorius/render/detail/garment.h"
 #include "risorius/render/detail/hair_area.h"
 #include "risorius/render/detail/lip_area.h"
 
@@ -64,7 +65,7 @@ const std::vector<std::string>& part_names() {
     static const std::vector<std::string> names{
         "background", "skin",    "lips",    "sclera_l",   "sclera_r", "iris_l",
         "iris_r",     "pupil_l", "pupil_r", "eye_corner", "teeth",    "gums",
-        "tongue",     "mouth",   "hair",    "brow_l",     "brow_r"};
+        "tongue",     "mouth",   "hair",    "brow_l",     "brow_r",   "garment"};
     return names;
 }
 
@@ -76,6 +77,8 @@ SurfacePasses::SurfacePasses(const Scene& scene, const Eigen::Matrix4d& clip_fro
       rest_(scene.rest),
       eyes_(scene.eyes),
       hair_(std::make_shared<HairArea>(scene)) {
+    if (const auto line = Neckline::of(scene, scene.appearance.garment))
+        neckline_ = std::make_shared<Neckline>(*line);
     const LipArea lips(scene.landmarks);
     Eigen::Index count = 0;
     for (const Surface& surface : scene.surfaces)
@@ -122,7 +125,11 @@ std::vector<std::uint16_t> SurfacePasses::parts(const SeenSurface& seen) const {
         if (seen.triangle[i] < 0) continue;
         Part part = part_[static_cast<std::size_t>(seen.triangle[i])];
         const bool left = part == Part::kScleraLeft, right = part == Part::kScleraRight;
-        if (part == Part::kSkin) part = hair_->at(at(seen, i, rest_)).value_or(part);
+        if (part == Part::kSkin) {
+            const Vec3 place = at(seen, i, rest_);
+            part = neckline_ && neckline_->below_m(place) > 0 ? Part::kGarment
+                                                              : hair_->at(place).value_or(part);
+        }
         if (left || right) part = ring_of_eye(at(seen, i, rest_), eyes_[right ? 1 : 0], right);
         out[i] = static_cast<std::uint16_t>(part);
     }

@@ -38,11 +38,13 @@ enum class Part : std::uint8_t {
     kHair,   ///< hair of the scalp where it grows on visible skin
     kBrowLeft,
     kBrowRight,
+    kGarment,
 };
 /// "background", "skin", ... in the order of Part.
 const std::vector<std::string>& part_names();
 
 class HairArea;
+class Neckline;
 
 /// Rasterizes poses of one scene for one camera.
 class SurfacePasses {
@@ -84,6 +86,7 @@ class SurfacePasses {
     Points rest_;
     std::array<Eye, 2> eyes_;
     std::shared_ptr<const HairArea> hair_;
+    std::shared_ptr<const Neckline> neckline_;  ///< null without a garment
 };
 
 }  // namespace risorius::render

@@ -127,6 +127,8 @@ struct AppearanceDescription {
     std::string beard_form = "stubble";
     double brow_density = 1.0, brow_width = 1.0;
     double skin_gloss = 1.0;
+    std::string garment = "none";  ///< names as in render/garments.h
+    Vec3 garment_tone{0.30, 0.32, 0.36};
 };
 
 /// What `fit` found for an action unit on this head, so that it moves as far and as evenly as facs.json asks.

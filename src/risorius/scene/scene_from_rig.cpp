@@ -195,7 +195,9 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
                         .beard_form = rig.appearance.beard_form,
                         .brow_density = rig.appearance.brow_density,
                         .brow_width = rig.appearance.brow_width,
-                        .skin_gloss = rig.appearance.skin_gloss};
+                        .skin_gloss = rig.appearance.skin_gloss,
+                        .garment = rig.appearance.garment,
+                        .garment_tone = rig.appearance.garment_tone};
     return scene;
 }
 

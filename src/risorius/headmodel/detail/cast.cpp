@@ -152,6 +152,7 @@ Identity blended(const std::vector<Identity>& persons, const std::vector<double>
     choose([](auto& person) -> auto& { return person.hairdo.style; });
     choose([](auto& person) -> auto& { return person.hairdo.hairline_form; });
     choose([](auto& person) -> auto& { return person.hairdo.beard_form; });
+    choose([](auto& person) -> auto& { return person.hairdo.garment; });
     for (const auto& [member, range] : kBlendedHair) {
         out.hairdo.*member = 0;
         for (std::size_t k = 0; k < persons.size(); ++k)

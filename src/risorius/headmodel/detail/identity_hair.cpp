@@ -7,14 +7,15 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/known_names.h"
+#include "risorius/render/garments.h"
 #include "risorius/render/hair_styles.h"
 
 namespace risorius::headmodel {
 
 const std::vector<std::string_view>& identity_hair_keys() {
-    static const std::vector<std::string_view> keys{"hair_style",   "hairline_form", "grey_hair",
-                                                    "age_lines",    "seed",          "beard_form",
-                                                    "brow_density", "brow_width",    "skin_gloss"};
+    static const std::vector<std::string_view> keys{
+        "hair_style",   "hairline_form", "grey_hair",  "age_lines", "seed",        "beard_form",
+        "brow_density", "brow_width",    "skin_gloss", "garment",   "garment_tone"};
     return keys;
 }
 
@@ -30,6 +31,8 @@ IdentityHair read_identity_hair(const JsonCursor& json) {
         hair.brow_density = json.at("brow_density").number(kBrowDensityRange);
     if (json.has("brow_width")) hair.brow_width = json.at("brow_width").number(kBrowWidthRange);
     if (json.has("skin_gloss")) hair.skin_gloss = json.at("skin_gloss").number(kSkinGlossRange);
+    if (json.has("garment")) hair.garment = json.at("garment").string();
+    if (json.has("garment_tone")) hair.garment_tone = json.at("garment_tone").vec3();
     return hair;
 }
 
@@ -37,6 +40,11 @@ void check_identity_hair(const IdentityHair& hair,
                          const std::function<std::string(const std::string& field)>& place) {
     index_of_name(place("hair_style"), hair.style, render::hair_style_names());
     index_of_name(place("hairline_form"), hair.hairline_form, render::hairline_form_names());
+    index_of_name(place("garment"), hair.garment, render::garment_names());
+    const double darkest = hair.garment_tone.minCoeff(), lightest = hair.garment_tone.maxCoeff();
+    if (!(darkest >= 0 && lightest <= 1))
+        throw Error(place("garment_tone"), "red, green and blue in [0, 1]",
+                    format_number(darkest < 0 ? darkest : lightest));
     index_of_name(place("beard_form"), hair.beard_form, render::beard_form_names());
     for (const auto& [key, value] :
          {std::pair{"grey_hair", hair.grey}, std::pair{"age_lines", hair.age_lines}})
@@ -55,6 +63,9 @@ void write_identity_hair(const IdentityHair& hair, Json& json) {
     if (hair.beard_form != usual.beard_form) json["beard_form"] = hair.beard_form;
     if (hair.brow_density != usual.brow_density) json["brow_density"] = hair.brow_density;
     if (hair.brow_width != usual.brow_width) json["brow_width"] = hair.brow_width;
+    if (hair.garment != usual.garment) json["garment"] = hair.garment;
+    if (const Vec3& tone = hair.garment_tone; tone != usual.garment_tone)
+        json["garment_tone"] = {tone.x(), tone.y(), tone.z()};
     if (hair.skin_gloss != usual.skin_gloss) json["skin_gloss"] = hair.skin_gloss;
 }
 

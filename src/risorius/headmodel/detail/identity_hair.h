@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
+#include "risorius/core/types.h"
 
 namespace risorius::headmodel {
 
@@ -24,6 +25,8 @@ struct IdentityHair {
     double brow_density = 1;             ///< 0..3, hairs of the brows against the usual number
     double brow_width = 1;               ///< 0.3..2, height of the brows against the usual one
     double skin_gloss = 1;  ///< 0..2, what the skin mirrors against the usual: powdered to oily
+    std::string garment = "none";         ///< a name of render::garment_names()
+    Vec3 garment_tone{0.30, 0.32, 0.36};  ///< sRGB
     bool operator==(const IdentityHair&) const = default;
 };
 

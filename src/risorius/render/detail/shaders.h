@@ -100,6 +100,8 @@ std::string mucosa_texture_shader(bool tongue);
 std::string lash_shader();
 std::string lock_vertex_shader();
 std::string lock_shader(bool layer);  ///< `layer`: to be stored and looked up as skin is
+std::string garment_vertex_shader();
+std::string garment_shader(bool layer);  ///< the same
 std::string strand_vertex_shader();
 std::string strand_shader();
 std::string shell_vertex_shader();

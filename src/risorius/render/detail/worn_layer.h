@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+/// \file
+/// What a person wears over the skin: the hair of a style and a garment.
+#pragma once
+
+#include "risorius/render/detail/garment_layer.h"
+#include "risorius/render/detail/lock_layer.h"
+
+namespace risorius::render {
+
+class WornLayer {
+  public:
+    /// Plans what the appearance asks for. `bare`: nothing is worn. `constants`: those of Lights. `layer`: it is drawn into a skin
+    /// layer (skin_layer.h) and looked up there. The context must be current.
+    WornLayer(const Scene& scene, bool bare, const Vec3& paint_centre, const Camera& camera,
+              const ShaderConstants& constants, bool layer);
+
+    /// Per vertex of the scene: 1 for skin that is never seen; empty where all may be.
+    std::vector<std::uint8_t> covered() const;
+    void upload(const Pose& pose);
+    /// The functions of the layers of the same names, for both.
+    void draw() const;
+    void touch(const Eigen::Matrix4f& clip_from_world, PictureCells& cells);
+    void look_up(const PictureCells& cells);
+    const LockLayer& locks() const { return locks_; }  ///< what throws shadow
+
+  private:
+    LockLayer locks_;
+    GarmentLayer garment_;
+};
+
+}  // namespace risorius::render
