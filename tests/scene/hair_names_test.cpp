@@ -10,6 +10,7 @@
 #include "message_of.h"
 #include "paths.h"
 #include "risorius/core/json_cursor.h"
+#include "risorius/render/garments.h"
 #include "risorius/render/hair_styles.h"
 #include "risorius/rig/rig_description.h"
 #include "temporary_folder.h"
@@ -34,7 +35,8 @@ TEST(HairNames, AreTheSameInRigAndRenderer) {
     };
     for (const auto& [key, names] : {std::pair{"hair_style", render::hair_style_names()},
                                      std::pair{"hairline_form", render::hairline_form_names()},
-                                     std::pair{"beard_form", render::beard_form_names()}}) {
+                                     std::pair{"beard_form", render::beard_form_names()},
+                                     std::pair{"garment", render::garment_names()}}) {
         for (const std::string& name : names) EXPECT_EQ(message(key, name), "no error") << name;
         // The rig lists what it knows: as many as the renderer
         const std::string refused = message(key, "mohawk");

@@ -109,15 +109,17 @@ Melanin melanin_of(const std::string& ancestry) {
     return {0.20, 0.10};
 }
 
-/// The tone of the skin by its pigments, and how much it shines: less with the years (Pochi et al. 1979). It has a sequence of its own.
+/// The tone of the skin by its pigments, and how much it shines: less with the years (Pochi et al. 1979). It has a sequence of its
+/// own. All wear the same shirt.
 void draw_skin(unsigned seed, const std::string& ancestry, Identity& person) {
     Draw draw(seed + kSkinSequence);
     const auto normal = [&] { return std::clamp(draw.normal(), -2.0, 2.0); };
     const Melanin melanin = melanin_of(ancestry);
     person.melanin = to_hundredths(std::clamp(melanin.mean + melanin.sd * normal(), 0.0, 1.0));
-    person.haemoglobin = to_hundredths(normal());
+    person.haemoglobin = to_hundredths(std::clamp(normal(), -1.5, 1.5));
     const double dry = 1 - 0.3 * std::clamp((person.age - 40) / 40, 0.0, 1.0);
     person.hairdo.skin_gloss = to_hundredths(dry * (0.75 + 0.15 * normal()));
+    person.hairdo.garment = "crew_neck";
 }
 
 }  // namespace

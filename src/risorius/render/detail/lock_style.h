@@ -26,16 +26,16 @@ struct LockStyle {
     int across = 3;    ///< points across a lock: 2, or 3 with the section of a roof
     double top_mm = 0, side_mm = 0, back_mm = 0;
     HairFlow flow = HairFlow::kWhorl;
-    double lift = 0;         ///< from the skin at the root: slope
-    double fall = 0;         ///< how much weight bends it down
-    double width_mm = 10;    ///< of a lock
-    double cap_mm = 2;       ///< thickness of the cap under the locks
-    double layers_mm = 2;    ///< the outermost lock lies this far above the innermost
-    double loft_mm = 2;      ///< how far a lock may stand off its layer
-    double fray_mm = 0;      ///< length of the pointed strands in which a lock ends; 0: it ends in one
-    double tip = 0.08;       ///< width of the tip, as a share
-    double curl_mm = 0;      ///< radius
-    double pitch_mm = 1;     ///< of the curl, or of the wave
+    double lift = 0;       ///< from the skin at the root: slope
+    double fall = 0;       ///< how much weight bends it down
+    double width_mm = 10;  ///< of a lock
+    double cap_mm = 2;     ///< thickness of the cap under the locks
+    double layers_mm = 2;  ///< the outermost lock lies this far above the innermost
+    double loft_mm = 2;    ///< how far a lock may stand off its layer
+    double fray_mm = 0;   ///< length of the pointed strands in which a lock ends; 0: it ends in one
+    double tip = 0.08;    ///< width of the tip, as a share
+    double curl_mm = 0;   ///< radius
+    double pitch_mm = 1;  ///< of the curl, or of the wave
     double parting_mm = 0;   ///< x of the parting
     double lit_cap = 0.5;    ///< light that the cap gets, as a share
     bool over_ears = false;  ///< locks lie over the ears; otherwise they end above them
