@@ -50,19 +50,21 @@ SkinColours skin_colours(double melanin, double haemoglobin, const DesignTables&
     while (next + 1 < rows.size() && melanin > rows[next].melanin) ++next;
     const PigmentTone &from = rows[next - 1], &to = rows[next];
     const double t = std::clamp((melanin - from.melanin) / (to.melanin - from.melanin), 0.0, 1.0);
-    const double h = haemoglobin * ((1 - t) * from.haemoglobin + t * to.haemoglobin);
-    const Vec3 absorbed = h * Vec3(0.42, 1, 0.96);
     // Between rows pigments multiply.
-    const Vec3 cheek =
-        ((1 - t) * from.albedo.array().log() + t * to.albedo.array().log() - absorbed.array())
-            .exp();
+    const Vec3 pale = ((1 - t) * from.albedo.array().log() + t * to.albedo.array().log()).exp();
+    const double h = haemoglobin * ((1 - t) * from.haemoglobin + t * to.haemoglobin);
+    const Vec3 blood = (-h * Vec3(0.42, 1, 0.96)).array().exp();
     const Vec3 caucasian(0.425, 0.241, 0.167), african(0.154, 0.066, 0.032);
     const Vec3 lips_of_caucasian(0.311, 0.112, 0.094), lips_of_african(0.134, 0.061, 0.050);
     const Vec3 exponent = (lips_of_caucasian.array() / lips_of_african.array()).log() /
                           (caucasian.array() / african.array()).log();
-    const Vec3 lips =
-        lips_of_caucasian.array() * (cheek.array() / caucasian.array()).pow(exponent.array());
-    SkinColours colours{encoded(cheek), encoded(lips), 0};
+    // In darker skin than was measured, lips keep their hue.
+    const double darker = std::min(pale.y() / african.y(), 1.0);
+    const Vec3 lips = darker < 1 ? Vec3(darker * lips_of_african)
+                                 : Vec3(lips_of_caucasian.array() *
+                                        (pale.array() / caucasian.array()).pow(exponent.array()));
+    const Vec3 cheek = pale.cwiseProduct(blood);
+    SkinColours colours{encoded(cheek), encoded(lips.cwiseProduct(blood)), 0};
     colours.ita_deg = typology_angle_deg(colours.skin);
     return colours;
 }

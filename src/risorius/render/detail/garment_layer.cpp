@@ -19,9 +19,9 @@ void fill_elements(GLuint buffer, const std::vector<unsigned>& indices, GLenum u
 
 }  // namespace
 
-GarmentLayer::GarmentLayer(const Scene& scene, Garment garment, const ShaderConstants& constants,
-                           bool layer)
-    : garment_(std::move(garment)) {
+GarmentLayer::GarmentLayer(const Scene& scene, Garment garment, const Camera& camera,
+                           const ShaderConstants& constants, bool layer)
+    : garment_(std::move(garment)), camera_(camera.eye_point()) {
     if (empty()) return;
     ShaderConstants toned = constants;
     toned.set("garment_tone", linear_from_srgb(scene.appearance.garment_tone));
@@ -54,7 +54,11 @@ GarmentLayer::~GarmentLayer() {
 void GarmentLayer::upload(const Points& positions) {
     if (empty()) return;
     constexpr double kNeckRadius_m = 0.06;  // where patterns have their size
-    const PosedGarment posed = pose_garment(garment_, positions);
+    // Cloth is nearer to the camera than it is, on the same ray: a skin layer tells surfaces apart by their distance.
+    constexpr double kNearer_m = 0.008;
+    PosedGarment posed = pose_garment(garment_, positions);
+    posed.positions +=
+        kNearer_m * ((-posed.positions).rowwise() + camera_.transpose()).rowwise().normalized();
     vertices_.clear();
     for (std::size_t i = 0; i < garment_.vertices.size(); ++i) {
         const GarmentVertex& v = garment_.vertices[i];

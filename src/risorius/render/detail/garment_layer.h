@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "risorius/render/detail/camera.h"
 #include "risorius/render/detail/garment.h"
 #include "risorius/render/detail/gl_context.h"
 #include "risorius/render/detail/picture_cells.h"
@@ -19,7 +20,8 @@ class GarmentLayer {
   public:
     /// `constants`: those of Lights. `layer`: it is drawn into a skin layer (skin_layer.h) and looked up there. The context must
     /// be current.
-    GarmentLayer(const Scene& scene, Garment garment, const ShaderConstants& constants, bool layer);
+    GarmentLayer(const Scene& scene, Garment garment, const Camera& camera,
+                 const ShaderConstants& constants, bool layer);
     ~GarmentLayer();
     GarmentLayer(const GarmentLayer&) = delete;
     GarmentLayer& operator=(const GarmentLayer&) = delete;
@@ -36,6 +38,7 @@ class GarmentLayer {
 
   private:
     Garment garment_;
+    Vec3 camera_;
     std::unique_ptr<GlProgram> program_;  ///< null when there is nothing to draw
     std::vector<float> vertices_;
     std::vector<ClipBox> boxes_;  ///< of the triangles

@@ -9,7 +9,7 @@ WornLayer::WornLayer(const Scene& scene, bool bare, const Vec3& paint_centre, co
                      const ShaderConstants& constants, bool layer)
     : locks_(scene, bare ? Hair{} : plan_hair(scene, plan_skin(scene, paint_centre), paint_centre),
              camera, constants, layer),
-      garment_(scene, bare ? Garment{} : plan_garment(scene), constants, layer) {}
+      garment_(scene, bare ? Garment{} : plan_garment(scene), camera, constants, layer) {}
 
 std::vector<std::uint8_t> WornLayer::covered() const {
     std::vector<std::uint8_t> covered = locks_.covered();
