@@ -85,11 +85,12 @@ std::vector<float> weights_in_oval(const ClipPlan& plan, const animate::FrameRow
 
 std::vector<float> measured_weights(const ClipPlan& plan, const animate::FrameRows& rows, int frame,
                                     const Image& picture) {
+    std::vector<float> out(picture.rgba.size() / 4, 1);
     if (plan.luminance && plan.luminance->within_face)
-        return weights_in_oval(plan, rows, frame, picture);
-    std::vector<float> out(picture.rgba.size() / 4);
+        out = weights_in_oval(plan, rows, frame, picture);
+    // What shows the background in part has a luminance that no map reaches.
     for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = static_cast<float>(media::opacity_of(picture, i));
+        if (media::opacity_of(picture, i) < 1) out[i] = 0;
     return out;
 }
 
