@@ -135,7 +135,8 @@ void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker) {
         measured.sums.add(image, weights);
         measured.colours.add(image, weights);
     }
-    Json record = json_object({{"film_sha256", plan.render_sha256},
+    Json record = json_object({{"design", plan.design},
+                               {"film_sha256", plan.render_sha256},
                                {"video_sha256", sha256_of_file(video_file)},
                                {"table_sha256", sha256_of_file(table_file)},
                                {"luminance", json_of(measured.sums)},
