@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -80,6 +81,44 @@ TEST(Tone, OfSixteenBitsFillsTheStepsBetweenBytes) {
     after.add(deep);
     EXPECT_NEAR(after.mean(), 0.3, 1e-4);
     EXPECT_NEAR(after.sd(), 0.06, 1e-4);
+}
+
+// Bytes of three channels have many more luminances than a grey. Each channel rounded by itself is wrong by 8e-4 here.
+TEST(Tone, OfSixteenBitsRoundsToTheNearestLuminance) {
+    constexpr int kPixels = 4000;
+    Image image(kPixels, 1);
+    for (int x = 0; x < kPixels; ++x) {
+        // A skin from dark to bright
+        const double bright = 0.2 + 0.7 * x / kPixels;
+        for (const double k : {1.0, 0.8, 0.7})
+            image.deep.push_back(static_cast<std::uint16_t>(std::lround(65535 * k * bright)));
+        image.deep.push_back(65535);
+    }
+    const Image deep = image;
+    ToneCurve({}).apply_over({128, 128, 128}, image);
+    double squares = 0;
+    for (std::size_t x = 0; x < kPixels; ++x) {
+        squares += std::pow(relative_luminance(image, x) - relative_luminance(deep, x), 2);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double away =
+                std::abs(image.rgba[4 * x + k] - static_cast<double>(deep.deep[4 * x + k]) / 257);
+            ASSERT_LT(away, k == 2 ? 2 : 1) << x << " " << k;
+        }
+    }
+    EXPECT_LT(std::sqrt(squares / kPixels), 2.5e-4);
+}
+
+TEST(Tone, OfSixteenBitsLeavesGreyGrey) {
+    Image image(1000, 1);
+    for (int x = 0; x < 1000; ++x) {
+        image.deep.insert(image.deep.end(), 3, static_cast<std::uint16_t>(65 * x));
+        image.deep.push_back(65535);
+    }
+    ToneCurve({}).apply_over({128, 128, 128}, image);
+    for (int x = 0; x < 1000; ++x) {
+        const std::uint8_t* pixel = image.pixel(x, 0);
+        ASSERT_TRUE(pixel[0] == pixel[1] && pixel[0] == pixel[2]) << x;
+    }
 }
 
 TEST(Tone, TellsHowMuchItCutsOff) {

@@ -116,13 +116,16 @@ void expect_methods(const SmileSet& set) {
          {"8 video clips (1 condition, 7 controls) of 1 synthetic head",
           "48 x 64 pixels at 10 frames", "lasted 0.5 s", "Luminance was not matched.",
           "- 1 clip `low_pass`: only spatial frequencies below 3 cycles per face",
-          "Butterworth filter of order 4", "@article{costen1996,", "[Participants"})
+          "Butterworth filter of order 4", "(compiled with ",
+          "were grown by 3 % of the width of the face.", "@article{costen1996,", "[Participants"})
         EXPECT_NE(methods.find(part), std::string::npos) << part << "\n" << methods;
     const animate::FrameRows clips = animate::frame_rows(text_of(set.out / "stimuli/stimuli.tsv"));
     const auto hed = static_cast<std::size_t>(clips.column("HED"));
     EXPECT_EQ(clips.cells[0][hed],
               "Sensory-event, Experimental-stimulus, Visual-presentation, (Video-clip, (Animation, "
               "(Face, Happy)))");
+    EXPECT_FALSE(Json::parse(text_of(set.out / "stimuli/stimuli.json")).contains("HED"))
+        << "the validator of HED forbids this key";
     EXPECT_EQ(clips.cells[6][hed].find("Face"), std::string::npos) << "a Mondrian";
 }
 

@@ -133,6 +133,15 @@ TEST_F(NormsOfSet, BecomePartOfItAndStay) {
     fs::remove(ratings);
     EXPECT_EQ(make_batch(options).kept, 2);
     EXPECT_EQ(cell(0, "norm_hit_rate"), "0.5");
+    // Each file is replaced by a new one of the set, and none is taken for somebody's own.
+    for (const char* correct : {"0", "1"}) {
+        std::ofstream(ratings) << "participant,kind,stim_id,answer,correct,false_alarm\n"
+                                  "1,trial,smile1,1,1,0\n1,catch,smile1,,"
+                               << correct << ",0\n";
+        options.norms = ratings;
+        EXPECT_TRUE(make_batch(options).changed.empty());
+    }
+    EXPECT_NE(text_of(options.out / "norms/catch.tsv").find("1\t1\t1\t1\t0"), std::string::npos);
     // Ratings of other clips are refused before anything is made
     std::ofstream(ratings) << "stimulus_id,answer\nstim-none,1\n";
     options.norms = ratings;

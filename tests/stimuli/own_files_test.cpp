@@ -42,7 +42,7 @@ TEST(OwnFiles, AreThoseOfClipsAndOfTheSet) {
     const TemporaryFolder folder;
     write_set(folder);
     EXPECT_EQ(own_files(folder.path()), kSet);
-    check_own_folder(folder.path());
+    check_own_folder(folder.path(), "any");
 }
 
 // A clip of a large set has its files in a folder of its own; those of another folder are not its.
@@ -122,15 +122,41 @@ TEST(OwnFiles, ThatSidecarsNameAreNotFoundThroughLinks) {
 
 TEST(OwnFiles, FoldersOfOthersAreRefused) {
     const TemporaryFolder folder;
-    check_own_folder(folder / "new");
+    check_own_folder(folder / "new", "any");
     fs::create_directories(folder / "x/stimuli");
-    check_own_folder(folder / "x");
+    check_own_folder(folder / "x", "any");
     write_file(folder / "x/code/analysis.R", "mine");
     write_file(folder / "x/dataset_description.json", R"({"Name": "a data set of mine"})");
-    EXPECT_NE(message_of([&] { check_own_folder(folder / "x"); })
+    EXPECT_NE(message_of([&] { check_own_folder(folder / "x", ""); })
                   .find("expected an empty folder, or one that `batch` has begun, found a folder "
                         "with other files"),
               std::string::npos);
+}
+
+// The clips of one design would be removed by the other, also when only some of them are there.
+TEST(OwnFiles, FoldersOfOtherDesignsAreRefused) {
+    const TemporaryFolder folder;
+    const auto message = [&](const char* name) {
+        return message_of([&] { check_own_folder(folder.path(), name); });
+    };
+    write_file(folder / "stimuli/stim-a_video.json",
+               R"({"format": "risorius-clip", "stim_id": "a", "design": "First"})");
+    const std::string expected = folder.path().string() +
+                                 ": expected a set of the design \"Second\", unless replace is "
+                                 "given, found one of \"First\"";
+    EXPECT_EQ(message("First"), "no error");
+    EXPECT_EQ(message(""), "no error");
+    EXPECT_EQ(message("Second"), expected);
+    write_file(folder / "dataset_description.json",
+               R"({"Name": "Second", "GeneratedBy": [{"Name": "Risorius"}]})");
+    EXPECT_EQ(message("Second"), "no error");
+    EXPECT_EQ(message("Third"), folder.path().string() +
+                                    ": expected a set of the design \"Third\", unless replace "
+                                    "is given, found one of \"Second\"");
+    fs::remove(folder / "dataset_description.json");
+    fs::remove(folder / "stimuli/stim-a_video.json");
+    write_file(folder / "intermediate/a.json", R"({"film_sha256": "1", "design": "First"})");
+    EXPECT_EQ(message("Second"), expected);
 }
 
 }  // namespace

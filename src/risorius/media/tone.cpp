@@ -44,11 +44,15 @@ bool ToneCurve::is_cut(const Image& image, std::size_t pixel, std::size_t channe
 }
 
 void ToneCurve::apply(Image& image) const {
-    for (std::size_t i = 0; i < image.rgba.size() / 4; ++i)
-        for (std::size_t k = 0; k < 3; ++k) {
-            std::uint8_t& byte = image.rgba[4 * i + k];
-            byte = image.deep.empty() ? byte_[byte] : byte_of(light_after(image, i, k));
-        }
+    for (std::size_t i = 0; i < image.rgba.size() / 4; ++i) {
+        std::uint8_t* pixel = &image.rgba[4 * i];
+        if (image.deep.empty())
+            std::transform(pixel, pixel + 3, pixel, [&](std::uint8_t byte) { return byte_[byte]; });
+        else
+            detail::set_srgb_of_lights(
+                {light_after(image, i, 0), light_after(image, i, 1), light_after(image, i, 2)},
+                pixel);
+    }
     image.deep.clear();
 }
 
@@ -57,16 +61,18 @@ void ToneCurve::apply_over(const std::array<std::uint8_t, 3>& background, Image&
                                        linear_of(background[2])};
     for (std::size_t i = 0; i < image.rgba.size() / 4; ++i) {
         const double share = opacity_of(image, i);
-        for (std::size_t k = 0; k < 3; ++k) {
-            std::uint8_t& byte = image.rgba[4 * i + k];
-            if (share == 1 && image.deep.empty())
-                byte = byte_[byte];
-            else if (share == 0)
-                byte = background[k];
-            else
-                byte = byte_of(share * light_after(image, i, k) + (1 - share) * behind[k]);
-        }
-        image.rgba[4 * i + 3] = 255;
+        std::uint8_t* pixel = &image.rgba[4 * i];
+        std::array<double, 3> light{};
+        for (std::size_t k = 0; k < 3; ++k)
+            light[k] = share * light_after(image, i, k) + (1 - share) * behind[k];
+        if (share == 0)
+            std::copy(background.begin(), background.end(), pixel);
+        else if (!image.deep.empty())
+            detail::set_srgb_of_lights(light, pixel);
+        else
+            for (std::size_t k = 0; k < 3; ++k)
+                pixel[k] = share == 1 ? byte_[pixel[k]] : byte_of(light[k]);
+        pixel[3] = 255;
     }
     image.deep.clear();
 }

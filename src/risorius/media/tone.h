@@ -7,7 +7,8 @@
 /// The linear light c of every channel becomes gain * c + offset, clamped to 0..1. So Y becomes gain * Y + offset, and hues are
 /// kept. The result depends only on the bytes of the picture.
 ///
-/// Pictures with 16 bits (Image::deep) are measured and mapped by them, and only the result is rounded to bytes.
+/// Pictures with 16 bits (Image::deep) are measured and mapped by them, and only the result is rounded to bytes: to those near it
+/// whose luminance is nearest. A mean, a deviation or a histogram then survives the rounding.
 ///
 /// A picture with a transparent background is measured by weights: those of its pixels, times opacity. Its background is never
 /// mapped.

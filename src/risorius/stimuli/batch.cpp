@@ -338,7 +338,7 @@ BatchReport make_batch(const BatchOptions& options, const ProgressMonitor& monit
         };
     BatchPlan plan = plan_batch(options.design, planning);
     const ProgressMonitor making = searched ? monitor.subrange(kSearchFraction, 1) : monitor;
-    check_own_folder(options.out);
+    check_own_folder(options.out, options.replace ? "" : plan.name);
     if (!options.norms.empty()) read_ratings(options.norms, clip_names(plan));
     BatchReport report;
     report.name = plan.name;

@@ -184,7 +184,7 @@ BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& s
                                 const ProgressMonitor& monitor) {
     const report::Stopwatch time;
     BatchPlan plan = plan_batch(batch.design, monitor);
-    check_own_folder(batch.out);
+    check_own_folder(batch.out, batch.replace ? "" : plan.name);
     BatchReport report;
     report.name = plan.name;
     const int tasks = std::clamp(slurm.tasks, 1, static_cast<int>(plan.clips.size()));

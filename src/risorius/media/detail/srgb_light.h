@@ -22,4 +22,9 @@ std::uint8_t srgb_of_light(double light);
 /// The same with 16 bits.
 std::uint16_t deep_srgb_of_light(double light);
 
+/// Writes the three bytes of a pixel whose luminance is nearest to that of these linear lights, which are clamped to 0..1. Red and
+/// green are the bytes below or above, blue is less than two steps away: a step of blue is a tenth of one of green, and hardly
+/// seen. A grey has three equal bytes. `rgb` may be a pixel of a picture with opacity.
+void set_srgb_of_lights(const std::array<double, 3>& light, std::uint8_t* rgb);
+
 }  // namespace risorius::media::detail

@@ -36,6 +36,9 @@ struct Column {
     std::function<Json(std::size_t clip)> cell;
 };
 
+/// The column of tags of HED 8.3.0 for what a clip shows
+constexpr const char* kTags = "HED";
+
 Json described(const char* text, const char* units = "") {
     Json out = json_object({{"Description", text}});
     if (*units) out["Units"] = units;
@@ -249,8 +252,7 @@ std::vector<Column> columns_of(const BatchPlan& plan, const std::vector<Json>& r
              const std::string control = records[i].at("control").get<std::string>();
              return Json(text + (control.empty() ? "" : ", control " + control));
          }},
-        {"HED", described("What it shows, in tags of HED 8.4.0"),
-         [&clips](std::size_t i) { return Json(hed_tags(clips[i])); }},
+        {kTags, Json(), [&clips](std::size_t i) { return Json(hed_tags(clips[i])); }},
         {"present", described("Whether the file is in this data set"), same("true")},
         {"set", described("Set of conditions of the design"), of_record("set")},
         {"control", described("What differs from the clip it is a control of"),
@@ -333,7 +335,8 @@ Catalogue catalogue_of(const BatchPlan& plan, const std::vector<Json>& records,
     if (norms) add_norms(plan, *norms, columns);
     for (const Column& column : columns) {
         out.table += (out.table.empty() ? "" : "\t") + column.name;
-        out.columns[column.name] = column.description;
+        // BIDS forbids this key: the meaning of a column of tags is fixed.
+        if (column.name != kTags) out.columns[column.name] = column.description;
     }
     out.table += "\n";
     for (std::size_t i = 0; i < records.size(); ++i) {

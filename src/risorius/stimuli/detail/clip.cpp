@@ -374,6 +374,7 @@ Json sidecar_of(const ClipPlan& plan, ShownClip shown, ClipPictures& pictures) {
     Json record = json_object({{"format", "risorius-clip"},
                                {"version", 1},
                                {"stim_id", plan.condition.clip},
+                               {"design", plan.design},
                                {"set", plan.condition.set},
                                {"control", plan.condition.control.name()},
                                {"of", plan.condition.of},

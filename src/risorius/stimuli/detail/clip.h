@@ -56,6 +56,7 @@ bool is_folder_of_clips(const std::string& name);
 /// A clip that has been planned and checked, but not made.
 struct ClipPlan {
     design::Condition condition;
+    std::string design;  ///< name of the design
     design::ClipOptions clips;
     /// Of a set with more than kClipsPerFolder clips: the folder of its files, "b012/", below stimuli, overview, aois and code/scripts
     std::string folder;

@@ -242,6 +242,7 @@ ClipPlan plan_clip(design::Condition planned, double lead_s, const PlanShared& s
     ClipPlan plan;
     plan.condition = std::move(planned);
     const design::Condition& condition = plan.condition;
+    plan.design = design.name;
     plan.clips = clips;
     plan.luminance = design.match.luminance;
     plan.script_name = script_name(condition, design.file);

@@ -64,6 +64,12 @@ std::vector<double> seen(const std::vector<Json>& records, const char* key, bool
     return out;
 }
 
+/// GCC says its version alone.
+std::string compiler() {
+    const std::string version = __VERSION__;
+    return version.find_first_of("0123456789") == 0 ? "GCC " + version : version;
+}
+
 std::string clips_text(const BatchPlan& plan, const std::vector<Json>& records) {
     std::size_t conditions = 0;
     std::set<std::string> heads, sizes;
@@ -88,7 +94,7 @@ std::string clips_text(const BatchPlan& plan, const std::vector<Json>& records) 
                       counted(heads.size(), "synthetic head", "synthetic heads") +
                       " [sex and age of the heads]. No person is shown. The faces were simulated "
                       "and rendered by Risorius " +
-                      std::string(kVersion) + " (compiled with " + __VERSION__ +
+                      std::string(kVersion) + " (compiled with " + compiler() +
                       "): muscles move a soft skin over a skull in steps of 1/" +
                       number(1 / records.front().at("run").value("step_s", 1.0 / 60), 0) + " s. ";
     const std::string size = joined({sizes.begin(), sizes.end()}) + " pixels";
@@ -109,6 +115,14 @@ std::string clips_text(const BatchPlan& plan, const std::vector<Json>& records) 
             ".";
     out += " The same design gives the same bytes.\n";
     return out;
+}
+
+/// The areas that are told for eye tracking.
+std::string aois_text(const design::ClipOptions& clips) {
+    if (clips.aois.empty()) return {};
+    return "Areas of interest (" + joined(clips.aois) +
+           ") followed landmarks of the face in every frame, and were grown by " +
+           number(100 * clips.aoi_margin, 1) + " % of the width of the face.\n";
 }
 
 /// The levels of every value that varies.
@@ -191,9 +205,12 @@ std::string luminance_part(const BatchPlan& plan, const std::vector<Json>& recor
     const design::LuminanceMatch& match = *plan.match.luminance;
     media::LuminanceSums before, after;
     double cut = 0;
+    std::vector<double> histogram_errors;
     for (const Json& record : records) {
         if (!record.at("control").get<std::string>().empty()) continue;
         const Json& luminance = record.at("luminance");
+        if (match.has_maps())
+            histogram_errors.push_back(100 * luminance.at("histogram_error").get<double>());
         before.add(sums_of(luminance.at("before")));
         after.add(sums_of(luminance.at("after")));
         cut = std::max(cut, luminance.at("cut_off").get<double>());
@@ -219,7 +236,8 @@ std::string luminance_part(const BatchPlan& plan, const std::vector<Json>& recor
             " made the same for all of them (as in Willenbockel et al., 2010, here within a soft "
             "oval)";
         if (match.spectrum) out += ", in " + std::to_string(match.rounds) + " rounds";
-        out += ".";
+        out += "; before coding, the histogram of a clip missed it by " +
+               range_of(histogram_errors, 2) + " % of the standard deviation.";
     }
     if (match.grey) out += " The faces were shown in grey.";
     return out + "\n";
@@ -278,7 +296,8 @@ std::string methods_text(const BatchPlan& plan, const std::vector<Json>& records
         "## Stimuli\n\n";
     for (const std::string& part :
          {clips_text(plan, records), factors_text(plan), motion_text(plan, records),
-          luminance_part(plan, records), controls_text(plan), sound_text(records)})
+          luminance_part(plan, records), controls_text(plan), aois_text(plan.clips.front().clips),
+          sound_text(records)})
         if (!part.empty()) out += part + "\n";
     if (plan.experiment) out += "## Procedure\n\n" + experiment_text(plan) + "\n";
     out +=

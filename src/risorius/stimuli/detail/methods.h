@@ -14,7 +14,7 @@ namespace risorius::stimuli {
 /// Returns methods.md. What only the laboratory knows stands in square brackets.
 std::string methods_text(const BatchPlan& plan, const std::vector<Json>& records);
 
-/// Returns what a clip shows in tags of Hierarchical Event Descriptors 8.4.0 (hedtags.org).
+/// Returns what a clip shows in tags of Hierarchical Event Descriptors 8.3.0 (hedtags.org).
 std::string hed_tags(const ClipPlan& plan);
 
 }  // namespace risorius::stimuli

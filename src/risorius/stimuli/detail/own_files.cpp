@@ -53,6 +53,7 @@ constexpr std::array kFilesOfSet{"dataset_description.json",
                                  "norms/ratings.csv",
                                  "norms/norms.json",
                                  "norms/confusion.tsv",
+                                 "norms/catch.tsv",
                                  "experiment/conditions.csv",
                                  "experiment/settings.json",
                                  "experiment/experiment.py",
@@ -190,37 +191,40 @@ void add_listed(const fs::path& folder, std::set<fs::path>& files) {
     }
 }
 
-/// Whether the file that describes a data set says that `batch` made it.
-bool is_described(const fs::path& folder) {
+/// The name of the design that `batch` has begun the folder for, empty where it is not known; none when it has not begun it.
+using BegunFor = std::optional<std::string>;
+
+/// By the file that describes a data set.
+BegunFor described_design(const fs::path& folder) {
     const std::optional<Json> json = object_of(folder, "dataset_description.json");
-    if (!json || !json->contains("GeneratedBy") || !json->at("GeneratedBy").is_array())
-        return false;
+    if (!json || !json->contains("GeneratedBy") || !json->at("GeneratedBy").is_array()) return {};
     for (const Json& by : json->at("GeneratedBy"))
-        if (by.is_object() && text_at(by, "Name") == "Risorius") return true;
-    return false;
+        if (by.is_object() && text_at(by, "Name") == "Risorius") return text_at(*json, "Name");
+    return {};
 }
 
-/// Whether a job array has begun the set.
-bool has_job_script(const fs::path& folder) {
-    return is_plain_file(folder, "code/slurm.sh") &&
-           read_file(folder / "code/slurm.sh", kShellScript).find(kJobScriptMark) !=
-               std::string::npos;
+/// By the script of a job array.
+BegunFor job_design(const fs::path& folder) {
+    if (is_plain_file(folder, "code/slurm.sh") &&
+        read_file(folder / "code/slurm.sh", kShellScript).find(kJobScriptMark) != std::string::npos)
+        return "";
+    return {};
 }
 
-/// Whether `batch` has made a clip, or rendered one.
-bool has_clip(const fs::path& folder) {
+/// By a clip that `batch` has made or rendered.
+BegunFor clip_design(const fs::path& folder) {
     for (const fs::path& file : files_in(folder, "stimuli"))
         if (is_named_as_sidecar(file))
             if (const auto record = object_of(folder, "stimuli" / file);
                 record && !clip_of(*record, file.filename().string()).empty())
-                return true;
+                return text_at(*record, "design");
     for (const char* below : kIntermediateFolders)
         for (const fs::path& name : files_in(folder, below))
             if (name.extension() == ".json")
                 if (const auto record = object_of(folder, fs::path(below) / name);
                     record && !text_at(*record, "film_sha256").empty())
-                    return true;
-    return false;
+                    return text_at(*record, "design");
+    return {};
 }
 
 /// Whether there is any file but the private ones of runs, in the folder or below.
@@ -237,14 +241,24 @@ bool has_files(const fs::path& folder) {
 
 }  // namespace
 
-void check_own_folder(const fs::path& folder) {
+void check_own_folder(const fs::path& folder, const std::string& design) {
     if (!fs::exists(folder)) return;
     if (!fs::is_directory(folder))
         throw Error(folder.string(), "a folder, or nothing yet", "a file");
     const ReadingFormerOutput former;
-    if (has_files(folder) && !is_described(folder) && !has_job_script(folder) && !has_clip(folder))
+    if (!has_files(folder)) return;
+    BegunFor begun = described_design(folder);
+    if (!begun) begun = clip_design(folder);
+    if (!begun) begun = job_design(folder);
+    if (!begun)
         throw Error(folder.string(), "an empty folder, or one that `batch` has begun",
                     "a folder with other files");
+    // Another design would remove its clips.
+    if (!design.empty() && !begun->empty() && *begun != design)
+        throw Error(folder.string(),
+                    "a set of the design " + in_quotes(design) + ", unless " +
+                        option_name("replace") + " is given",
+                    "one of " + in_quotes(*begun));
 }
 
 std::set<fs::path> own_files(const fs::path& folder) {

@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <set>
+#include <string>
 
 namespace risorius::stimuli {
 
@@ -17,8 +18,8 @@ namespace risorius::stimuli {
 inline constexpr const char* kJobScriptMark =
     "# A part of a stimulus set, made by one task of a job array.";
 
-/// Throws Error unless the folder is missing, holds no file, or was begun by `batch`.
-void check_own_folder(const std::filesystem::path& folder);
+/// Throws Error unless the folder is missing, holds no file, or was begun by `batch` for a design of this name. An empty name: for any.
+void check_own_folder(const std::filesystem::path& folder, const std::string& design);
 
 /// The files, relative to the folder. Sidecars and records are among them.
 std::set<std::filesystem::path> own_files(const std::filesystem::path& folder);

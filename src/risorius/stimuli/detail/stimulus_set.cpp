@@ -47,7 +47,7 @@ Json dataset_description(const BatchPlan& plan) {
     Json out = json_object(
         {{"Name", plan.name},
          {"BIDSVersion", "1.10.0"},
-         {"HEDVersion", "8.4.0"},
+         {"HEDVersion", "8.3.0"},  // the newest that the validators have with them
          {"DatasetType", "derivative"},
          {"License", plan.dataset.license},
          {"Authors", plan.dataset.authors},

@@ -85,11 +85,12 @@ std::vector<float> weights_in_oval(const ClipPlan& plan, const animate::FrameRow
 
 std::vector<float> measured_weights(const ClipPlan& plan, const animate::FrameRows& rows, int frame,
                                     const Image& picture) {
+    std::vector<float> out(picture.rgba.size() / 4, 1);
     if (plan.luminance && plan.luminance->within_face)
-        return weights_in_oval(plan, rows, frame, picture);
-    std::vector<float> out(picture.rgba.size() / 4);
+        out = weights_in_oval(plan, rows, frame, picture);
+    // What shows the background in part has a luminance that no map reaches.
     for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = static_cast<float>(media::opacity_of(picture, i));
+        if (media::opacity_of(picture, i) < 1) out[i] = 0;
     return out;
 }
 
@@ -134,7 +135,8 @@ void make_unmatched_render(const ClipPlan& plan, const ClipWorker& worker) {
         measured.sums.add(image, weights);
         measured.colours.add(image, weights);
     }
-    Json record = json_object({{"film_sha256", plan.render_sha256},
+    Json record = json_object({{"design", plan.design},
+                               {"film_sha256", plan.render_sha256},
                                {"video_sha256", sha256_of_file(video_file)},
                                {"table_sha256", sha256_of_file(table_file)},
                                {"luminance", json_of(measured.sums)},

@@ -59,7 +59,8 @@ void remove_unmatched_render(const ClipPlan& plan, const std::filesystem::path& 
 /// Returns the weights of the pixels of a frame within the oval of the face, which has a soft rim, times opacity.
 std::vector<float> weights_in_oval(const ClipPlan& plan, const animate::FrameRows& rows, int frame,
                                    const Image& picture);
-/// Returns the weights with which a frame is measured: within the oval, or of the whole picture, times opacity.
+/// Returns the weights with which a frame is measured: within the oval, or of the whole picture. What shows the background in part
+/// has none.
 std::vector<float> measured_weights(const ClipPlan& plan, const animate::FrameRows& rows, int frame,
                                     const Image& picture);
 
