@@ -19,7 +19,8 @@ double encoded(double light) { return std::clamp(srgb_of_linear(light), 0.0, 1.0
 const std::array<double, 256>& light_of_bytes() {
     static const std::array<double, 256> table = [] {
         std::array<double, 256> out{};
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] = decoded(static_cast<double>(i) / 255);
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = linear_of_srgb(static_cast<double>(i) / 255);
         return out;
     }();
     return table;
