@@ -41,6 +41,11 @@ let hasMuscles = false;
 let hasSkull = false;
 let bones: string | null = null; ///< the file with the bones of the rig
 
+/// Where a script of a person lies; messages name it as he does.
+const ownFolder = `/own${"/folder".repeat(12)}`;
+let ownName = "";
+const inOwnWords = (words: string) => words.replaceAll(`${ownFolder}/script.json`, ownName);
+
 const text = new TextDecoder();
 const note = (kind: string, words: string, more: Record<string, unknown> = {}) => page.postMessage({ note: kind, text: words, ...more });
 
@@ -80,7 +85,12 @@ function put(path: string, bytes: Uint8Array | string): void {
 
 /// The rig of the pack that a script of a person means: the one whose folder has the same name.
 function rigOf(script: string): string {
-  const named = String(JSON.parse(script).rig ?? "");
+  let named = "";
+  try {
+    named = String(JSON.parse(script).rig ?? "");
+  } catch {
+    throw new Error("expected a script, which is JSON, found something else");
+  }
   const found = Object.entries(pack.rigs).find(([name]) => named.split(/[\\/]/).at(-2) === name);
   if (!found) throw new Error(`rig: expected one that this page has (${Object.keys(pack.rigs).join(", ")}), found "${named}"`);
   return found[0];
@@ -97,29 +107,30 @@ function resolved(folder: string, name: string): string {
 
 /// Puts a script of a person into a folder of its own, and the rig where the script looks for it.
 async function placeOwn(script: string, rig: Pack["rigs"][string]): Promise<string> {
-  const folder = `/own${"/folder".repeat(12)}`;
-  put(`${folder}/script.json`, script);
-  const at = resolved(folder, String(JSON.parse(script).rig));
+  put(`${ownFolder}/script.json`, script);
+  const at = resolved(ownFolder, String(JSON.parse(script).rig));
   const rigFolder = rig.rig.slice(0, rig.rig.lastIndexOf("/"));
   const up = "../".repeat(rigFolder.split("/").length);
   put(at, await fetchPacked(`data/${rig.rig}`));
   for (const name of rig.files) put(resolved(at.slice(0, at.lastIndexOf("/")), up + name), await fetchPacked(`data/${name}`));
-  return `${folder}/script.json`;
+  return `${ownFolder}/script.json`;
 }
 
 async function open(message: Message): Promise<void> {
   let path: string;
   let rig: string;
+  let name: string;
   if (message.text !== undefined) {
+    ownName = message.name ?? "script.json";
     rig = rigOf(message.text);
     path = await placeOwn(message.text, pack.rigs[rig]);
-    file = message.name ?? "script.json";
+    name = ownName;
   } else {
-    const name = message.sample && pack.samples[message.sample] ? message.sample : pack.first;
-    const sample = pack.samples[name];
+    const known = message.sample && pack.samples[message.sample] ? message.sample : pack.first;
+    const sample = pack.samples[known];
     rig = sample.rig;
     path = `/${sample.script}`;
-    file = `${name}.json`;
+    name = `${known}.json`;
     await Promise.all([sample.script, ...sample.files].map(place));
   }
   note("loading", "loading the face");
@@ -127,6 +138,7 @@ async function open(message: Message): Promise<void> {
   note("loading", "building the face");
   const welcome = JSON.parse(told("open", path));
   isOpen = true;
+  file = name;
   opened++;
   hasMuscles = hasSkull = false;
   page.postMessage(JSON.stringify({ ...welcome, steers: true, folder: "your downloads", file }));
@@ -165,7 +177,7 @@ function answer(message: Message): void {
   if (message.type === "credit") credit = Math.min(credit + 1, firstCredit);
   else if (message.type === "save") save(message);
   else {
-    for (const reply of JSON.parse(told("receive", JSON.stringify(message))) as string[]) page.postMessage(reply);
+    for (const reply of JSON.parse(told("receive", JSON.stringify(message))) as string[]) page.postMessage(inOwnWords(reply));
     poseWaits = true;
     if (message.type !== "sights") return;
     if (message.muscles && !hasMuscles) sendBytes("muscles");
@@ -181,12 +193,16 @@ function answer(message: Message): void {
 let opening: Promise<void> = Promise.resolve();
 self.addEventListener("message", ({ data }: MessageEvent<Message>) => {
   if (data.type === "open") {
-    opening = opening.then(() => open(data)).catch((error: Error) => (isOpen ? sendError(data.id, error.message) : note("failed", error.message)));
+    opening = opening.then(() => open(data)).catch((error: Error) => {
+      if (isOpen) sendError(data.id, inOwnWords(error.message));
+      else note("failed", error.message);
+      ownName = file; // the script that stays open
+    });
   } else if (isOpen) {
     try {
       answer(data);
     } catch (error) {
-      sendError(data.id, (error as Error).message);
+      sendError(data.id, inOwnWords((error as Error).message));
     }
   }
 });

@@ -154,7 +154,7 @@ await test("what is wrong is said, and the open script stays", async () => {
   await openOwn("other.json", JSON.stringify({ ...script, rig: "somebody/rig.json" }));
   await until(page, () => /rig: expected one that this page has \(adult\), found "somebody\/rig.json"/.test(document.querySelector("#message").textContent));
   await openOwn("broken.json", JSON.stringify({ ...script, channels: { zygomaticus_mayor: { keys: [[0, 1]] } } }));
-  await until(page, () => /zygomaticus_major/.test(document.querySelector("#message").textContent));
+  await until(page, () => /^broken.json:.*zygomaticus_major/.test(document.querySelector("#message").textContent));
   assert.equal(await page.title(), "mine.json – Risorius studio");
   await poseAt(page, 0.2);
 });
