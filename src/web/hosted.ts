@@ -24,7 +24,7 @@ const showAbout = () =>
   dialog(
     "about",
     "About this page",
-    "The face is simulated in this page, by the program that Risorius is, as WebAssembly. Nothing that you do leaves your computer.",
+    "This page simulates the face itself: it is Risorius as WebAssembly. Nothing that you do leaves your computer.",
     "You can play and edit scripts, move channels and pull the skin. Save writes the script to your downloads; the program reads it.",
     "A rig of your own mesh, voices, videos and pictures need the program on your own computer: risorius view shows the same page with them.",
     h("p", {}, h("a", { href: "licences/README.txt" }, "Licences of what is inside")),
