@@ -32,6 +32,9 @@ rm -rf build/site
 mkdocs build --quiet --config-file tools/docs/mkdocs.yml
 python3 tools/docs/check_links.py build/site
 
+# The studio to try, where tools/web/build_hosted.sh has built it
+if [[ -f build/web/hosted/pack.json ]]; then cp -r build/web/hosted build/site/try; fi
+
 if [[ $api == yes ]]; then
     rm -rf build/api
     mkdir -p build/api

@@ -6,6 +6,7 @@
 #   tools/setup.sh test     what testing needs too
 #   tools/setup.sh speech   what building needs, and a voice that speaks texts
 #   tools/setup.sh studio   what building needs, and Node.js for the page of the studio
+#   tools/setup.sh web      what building needs, and what the hosted page of the studio is built with
 #   tools/setup.sh docs     what tools/docs.sh needs, and nothing else
 #
 # RISORIUS_SKIP_SETUP=1 leaves the machine as it is, for systems whose packages have other names.
@@ -21,14 +22,15 @@ die() {
 }
 
 case $purpose in
-    build | test | speech | docs | studio) ;;
-    *) die "expected build, test, speech, docs or studio, found \"$purpose\"" ;;
+    build | test | speech | docs | studio | web) ;;
+    *) die "expected build, test, speech, docs, studio or web, found \"$purpose\"" ;;
 esac
 if [[ ${RISORIUS_SKIP_SETUP:-0} == 1 ]]; then exit 0; fi
 
 # The sections that are asked for, and their packages without the comments.
 sections=" build $purpose "
 if [[ $purpose == docs ]]; then sections=" docs "; fi
+if [[ $purpose == web ]]; then sections=" build studio web "; fi
 packages=()
 section=build
 while read -r line; do

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The connection to `risorius view`. It comes back by itself, with a growing wait.
+/// What computes the face: a page sends it messages and listens to it. RemoteEngine is the connection to `risorius view`, which comes
+/// back by itself, with a growing wait; local_engine.ts has the one that runs in the page.
 
 import { decode } from "./protocol.js";
 import type { Binary, DocumentMessage, State, Welcome } from "./protocol.js";
@@ -16,26 +17,16 @@ export interface Listener {
 
 const longestWait_ms = 8000;
 
-export class RemoteEngine {
-  private socket: WebSocket | null = null;
-  private wait_ms = 250;
+export abstract class Engine {
   private next = 1;
   private asked = new Map<number, (error: string | null) => void>();
 
-  constructor(
-    private readonly token: string,
-    private readonly listener: Listener,
-  ) {
-    this.connect();
-  }
+  constructor(protected readonly listener: Listener) {}
 
-  get open(): boolean {
-    return this.socket !== null && this.socket.readyState === WebSocket.OPEN;
-  }
-
-  send(message: Record<string, unknown>): void {
-    if (this.open) this.socket!.send(JSON.stringify(message));
-  }
+  abstract get open(): boolean;
+  abstract send(message: Record<string, unknown>): void;
+  /// Ends the connection; it comes back after a while, as after a fault.
+  abstract cut(wait_ms: number): void;
 
   /// Sends a message with a number, and tells what is wrong with it, if anything.
   ask(message: Record<string, unknown>): Promise<string | null> {
@@ -50,33 +41,12 @@ export class RemoteEngine {
     });
   }
 
-  /// Ends the connection; it comes back after a while, as after a fault.
-  cut(wait_ms: number): void {
-    this.wait_ms = wait_ms;
-    this.socket?.close();
-  }
-
   /// The page has drawn a pose and is ready for another.
   credit(): void {
     this.send({ type: "credit" });
   }
 
-  private connect(): void {
-    const socket = new WebSocket(`ws://${location.host}/socket`);
-    socket.binaryType = "arraybuffer";
-    socket.onopen = () => socket.send(JSON.stringify({ type: "hello", token: this.token, protocol: 1 }));
-    socket.onmessage = (event) => this.take(event.data);
-    socket.onclose = () => {
-      if (this.socket !== socket) return;
-      this.socket = null;
-      this.listener.connected(false);
-      setTimeout(() => this.connect(), this.wait_ms);
-      this.wait_ms = Math.min(2 * this.wait_ms, longestWait_ms);
-    };
-    this.socket = socket;
-  }
-
-  private take(data: string | ArrayBuffer): void {
+  protected take(data: string | ArrayBuffer): void {
     if (typeof data !== "string") {
       this.listener.binary(decode(data));
       return;
@@ -84,7 +54,6 @@ export class RemoteEngine {
     const message = JSON.parse(data);
     switch (message.type) {
       case "welcome":
-        this.wait_ms = 250;
         this.listener.connected(true);
         this.listener.welcome(message);
         break;
@@ -104,5 +73,49 @@ export class RemoteEngine {
       default:
         this.listener.other(message);
     }
+  }
+}
+
+export class RemoteEngine extends Engine {
+  private socket: WebSocket | null = null;
+  private wait_ms = 250;
+
+  constructor(
+    private readonly token: string,
+    listener: Listener,
+  ) {
+    super(listener);
+    this.connect();
+  }
+
+  get open(): boolean {
+    return this.socket !== null && this.socket.readyState === WebSocket.OPEN;
+  }
+
+  send(message: Record<string, unknown>): void {
+    if (this.open) this.socket!.send(JSON.stringify(message));
+  }
+
+  cut(wait_ms: number): void {
+    this.wait_ms = wait_ms;
+    this.socket?.close();
+  }
+
+  private connect(): void {
+    const socket = new WebSocket(`ws://${location.host}/socket`);
+    socket.binaryType = "arraybuffer";
+    socket.onopen = () => socket.send(JSON.stringify({ type: "hello", token: this.token, protocol: 1 }));
+    socket.onmessage = (event) => {
+      this.wait_ms = 250;
+      this.take(event.data);
+    };
+    socket.onclose = () => {
+      if (this.socket !== socket) return;
+      this.socket = null;
+      this.listener.connected(false);
+      setTimeout(() => this.connect(), this.wait_ms);
+      this.wait_ms = Math.min(2 * this.wait_ms, longestWait_ms);
+    };
+    this.socket = socket;
   }
 }

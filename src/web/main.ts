@@ -5,9 +5,10 @@
 import { cameras } from "./cameras.js";
 import { Channels } from "./channels.js";
 import { byId, h, shown } from "./dom.js";
-import { RemoteEngine } from "./engine.js";
+import { makeEngine } from "./engine_choice.js";
 import { activationColour } from "./head.js";
 import type { Sight } from "./head.js";
+import "./hosted.js";
 import { Hover } from "./hover.js";
 import { Keeper } from "./keeper.js";
 import type { Edit } from "./key_edits.js";
@@ -275,7 +276,7 @@ function connected(yes: boolean): void {
   if (!yes) keeper.lost();
 }
 
-const engine = new RemoteEngine(location.hash.slice(1), {
+const engine = makeEngine(location.hash.slice(1), {
   welcome: takeWelcome,
   document: (message) => {
     takeDocument(message);
@@ -541,6 +542,7 @@ window.addEventListener("beforeunload", (event) => {
   scene: () => scene,
   state: () => state,
   script: () => script,
+  pose: () => pose,
   sounds: () => speech.sounds,
   scrubbed: () => speech.scrubbed,
   said: () => said,

@@ -250,7 +250,7 @@ TEST(SetupScript, WithoutAptListsWhatIsNeeded) {
 
 TEST(SetupScript, RefusesAnUnknownPurpose) {
     const auto [said, code] = Machine().setup("bild");
-    EXPECT_EQ(said, "setup: expected build, test, speech, docs or studio, found \"bild\"\n");
+    EXPECT_EQ(said, "setup: expected build, test, speech, docs, studio or web, found \"bild\"\n");
     EXPECT_EQ(code, 1);
 }
 

@@ -13,4 +13,5 @@ skip() {
 [[ -x $node ]] || skip 'there is no Node.js here'
 [[ -x $chromium ]] || skip 'there is no Chromium here'
 [[ -f $web/page/index.html && -d $web/node_modules/playwright-core ]] || skip 'the page is not built; tools/web/build_page.sh builds it'
+if [[ $test == hosted.mjs && ! -f $web/hosted/pack.json ]]; then skip 'the hosted page is not built; tools/web/build_hosted.sh builds it with Emscripten'; fi
 exec "$node" "$source/tests/web/$test" "$program" "$web/node_modules" "$source"

@@ -7,10 +7,18 @@
 #include <stdexcept>
 
 #include "risorius/solve/detail/cholmod_view.h"
+#include "risorius/solve/detail/simplicial_panels.h"
 
 namespace risorius::solve::detail {
 
 namespace {
+
+// The build for browsers has no module Supernodal (src/web_engine.cmake).
+#ifdef RISORIUS_SIMPLICIAL_PANELS
+constexpr bool kSupernodal = false;
+#else
+constexpr bool kSupernodal = true;
+#endif
 
 struct Workspace {
     cholmod_common common;
@@ -73,20 +81,21 @@ PanelPattern panel_pattern(const Eigen::SparseMatrix<double>& A, const std::vect
     PanelPattern out;
     out.order = order;
     Workspace work;
-    work.common.supernodal = CHOLMOD_SUPERNODAL;
+    work.common.supernodal = kSupernodal ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL;
     work.common.postorder = 1;
     work.common.method[0].ordering = CHOLMOD_GIVEN;
     cholmod_sparse view = view_of(A);
     work.factor = cholmod_analyze_p(&view, out.order.data(), nullptr, 0, &work.common);
     const cholmod_factor& L = work.found();
+    const auto* perm = static_cast<const int*>(L.Perm);
+    out.order.assign(perm, perm + L.n);
+    if (!kSupernodal) return simplicial_panels(A, std::move(out.order));
     const auto* super = static_cast<const int*>(L.super);
     const auto* row_begin = static_cast<const int*>(L.pi);
     const auto* row = static_cast<const int*>(L.s);
     out.super.assign(super, super + L.nsuper + 1);
     out.row_begin.assign(row_begin, row_begin + L.nsuper + 1);
     out.row.assign(row, row + L.ssize);
-    const auto* perm = static_cast<const int*>(L.Perm);
-    out.order.assign(perm, perm + L.n);
     return out;
 }
 
