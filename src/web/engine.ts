@@ -37,6 +37,10 @@ export class RemoteEngine {
     if (this.open) this.socket!.send(JSON.stringify(message));
   }
 
+  sendBytes(bytes: ArrayBuffer): void {
+    if (this.open) this.socket!.send(bytes);
+  }
+
   /// Sends a message with a number, and tells what is wrong with it, if anything.
   ask(message: Record<string, unknown>): Promise<string | null> {
     const id = this.next++;
