@@ -126,6 +126,36 @@ TEST(SessionRecording, MovedChannelsBecomeKeysThatAreUndoneAsOne) {
     EXPECT_EQ(script_of(session)["channels"], channels);
 }
 
+TEST(SessionRecording, ACameraOverridesItsChannelsAndIsRecorded) {
+    Session session(inputs_of(plain_script()));
+    const auto overrides = [&] { return Json::parse(session.state())["overrides"]; };
+    const auto perform = [&](const Json& values) {
+        return send(session, {{"type", "perform"}, {"values", values}});
+    };
+    send(session, {{"type", "override"}, {"channel", "AU9"}, {"value", 0.2}});
+    perform({{"AU12.l", 0.5}, {"jaw_open", 0.1}});
+    EXPECT_EQ(overrides(), (Json{{"AU12.l", 0.5}, {"AU9", 0.2}, {"jaw_open", 0.1}}));
+    perform({{"AU12.l", 0.6}});
+    EXPECT_EQ(overrides(), (Json{{"AU12.l", 0.6}, {"AU9", 0.2}}));
+    // What is wrong changes nothing.
+    EXPECT_EQ(perform({{"AU12.l", 7}})[0]["type"], "error");
+    EXPECT_EQ(overrides(), (Json{{"AU12.l", 0.6}, {"AU9", 0.2}}));
+    send(session, {{"type", "record"}, {"on", true}});
+    send(session, {{"type", "play"}});
+    while (t_of(session) < 0.5 - 1e-9) {
+        perform({{"AU12.l", t_of(session)}});
+        session.tick();
+    }
+    send(session, {{"type", "pause"}});
+    perform(Json::object());
+    EXPECT_EQ(overrides(), (Json{{"AU9", 0.2}}));
+    const Json channels = script_of(session)["channels"];
+    EXPECT_FALSE(channels.contains("AU9"));
+    EXPECT_LE(channels["AU12.l"]["keys"].size(), 5u);  // a straight line, and how it ends
+    send(session, {{"type", "undo"}});
+    EXPECT_EQ(script_of(session), plain_script());
+}
+
 TEST(SessionRecording, PullsAndChannelsOfATakeAreOneStepThatTheEndMakes) {
     Session session(inputs_of(plain_script()));
     const int vertex = rig::adult().vertex("ch_l");
