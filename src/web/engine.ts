@@ -28,6 +28,9 @@ export abstract class Engine {
   /// Ends the connection; it comes back after a while, as after a fault.
   abstract cut(wait_ms: number): void;
 
+  /// Sends a picture of a camera.
+  abstract sendBytes(bytes: ArrayBuffer): void;
+
   /// Sends a message with a number, and tells what is wrong with it, if anything.
   ask(message: Record<string, unknown>): Promise<string | null> {
     const id = this.next++;
@@ -94,6 +97,10 @@ export class RemoteEngine extends Engine {
 
   send(message: Record<string, unknown>): void {
     if (this.open) this.socket!.send(JSON.stringify(message));
+  }
+
+  sendBytes(bytes: ArrayBuffer): void {
+    if (this.open) this.socket!.send(bytes);
   }
 
   cut(wait_ms: number): void {

@@ -34,7 +34,7 @@ const showNeedsProgram = () =>
   dialog(
     "needs-program",
     "This needs the program",
-    "A rig of your own mesh is made by a program on your computer: it looks for the landmarks, measures the head and calibrates its muscles.",
+    "Rigs of your own mesh, videos, pictures, blend shapes and a camera that drives the face need a program on your computer.",
     "Install Risorius and run risorius view. It shows this page, with everything.",
   ).showModal();
 
@@ -49,15 +49,16 @@ function use(): void {
   }).observe(document.body, { attributeFilter: ["data-step"] });
 
   byId("help").before(h("button", { id: "about-page", class: "quiet", onclick: showAbout }, "About"));
-  // Before the listener of the page, which would ask the engine for meshes
-  byId("new-head").addEventListener(
-    "click",
-    (event) => {
-      event.stopImmediatePropagation();
-      showNeedsProgram();
-    },
-    { capture: true },
-  );
+  // Before the listeners of the page, which would ask the engine
+  for (const button of ["new-head", "export", "camera-open"])
+    byId(button).addEventListener(
+      "click",
+      (event) => {
+        event.stopImmediatePropagation();
+        showNeedsProgram();
+      },
+      { capture: true },
+    );
   const [own] = document.querySelectorAll("#open-dialog h3");
   own.textContent = "Of yours";
   byId("lost").querySelector("p")!.textContent = "The engine has ended. You can still edit keys and events: this browser keeps them. Load the page again to go on.";

@@ -60,6 +60,9 @@ export class LocalEngine extends Engine {
     else this.reply({ type: "error", id: message.id ?? null, message: needsProgram(String(message.type)) });
   }
 
+  /// Cameras need the program: their button says so.
+  sendBytes(): void {}
+
   cut(wait_ms: number): void {
     this.worker?.terminate();
     this.worker = null;

@@ -2,20 +2,27 @@
 /// \file
 /// The page of `risorius view`: connects the engine with stage, channels and timeline.
 
+import { Camera } from "./camera.js";
 import { cameras } from "./cameras.js";
 import { Channels } from "./channels.js";
+import { useClipboard } from "./clipboard.js";
 import { byId, h, shown } from "./dom.js";
 import { makeEngine } from "./engine_choice.js";
-import { activationColour } from "./head.js";
+import { Export } from "./export.js";
+import type { Job } from "./export.js";
+import { download, Files } from "./files.js";
 import type { Sight } from "./head.js";
 import "./hosted.js";
 import { Hover } from "./hover.js";
 import { Keeper } from "./keeper.js";
 import type { Edit } from "./key_edits.js";
+import { showLegend } from "./legend.js";
 import { NewHead } from "./newhead.js";
 import type { Binary, DocumentMessage, Pose, Scene, State, Vec, Welcome } from "./protocol.js";
+import { Recorder } from "./record.js";
 import { SpeechSound } from "./speech.js";
 import { Stage } from "./stage.js";
+import { sentenceOf } from "./sentence.js";
 import { Timeline } from "./timeline.js";
 import type { Speech } from "./timeline_canvas.js";
 
@@ -101,6 +108,19 @@ let said: Speech | null = null;
 
 const keeper = new Keeper({ edit, show: takeDocument, say });
 
+const files = new Files({ send: (message) => engine.send(message), ask: (message) => engine.ask(message), file: () => welcome?.file ?? null });
+
+const making = new Export({ ask: (message) => engine.ask(message) });
+
+const camera = new Camera({ ask: (message) => engine.ask(message), send: (message) => engine.send(message), picture: (bytes) => engine.sendBytes(bytes) });
+
+const recorder = new Recorder({
+  send: (message) => engine.send(message),
+  play: () => !state?.playing && playOrPause(),
+  script: () => script?.script ?? null,
+  say: (text) => say(text, true),
+});
+
 const newHead = new NewHead({ ask: (message) => engine.ask(message), open: (path) => engine.send({ type: "open", path }) });
 
 function edit(edits: Edit[], gesture?: string): void {
@@ -122,6 +142,7 @@ function takeWelcome(message: Welcome): void {
   byId("folder").textContent = message.folder;
   document.title = `${message.file ?? message.rig} – Risorius studio`;
   channels.use(message);
+  making.useWelcome(message);
   timeline.useChannels(message.channels);
   const add = byId<HTMLSelectElement>("add");
   add.replaceChildren(h("option", { value: "" }, "event…"), h("option", { value: "blink" }, "blink"), h("option", { value: "say" }, "say a text…"));
@@ -180,25 +201,12 @@ function takeState(message: State): void {
   connection.classList.toggle("late", late);
   channels.useState(message);
   hover.useState(message);
+  recorder.useState(message);
+  making.useState(message);
   timeline.useState(message);
   speech.follow(message.t_s, message.playing);
   stage.showPulls(message.pulls);
-  if (message.resting || !message.playing) describe(message);
-}
-
-/// What is seen, as a sentence for those who do not see it.
-function describe(now: State): void {
-  if (!pose || !welcome) return;
-  const strong = welcome.columns
-    .map((name, column) => ({ name, value: pose!.activation[column] / 127 }))
-    .filter((one) => one.value > 0.1)
-    .sort((a, b) => b.value - a.value)
-    .slice(0, 3)
-    .map((one) => `${one.name.replace(/\.l$/, " left").replace(/\.r$/, " right").replaceAll("_", " ")} ${one.value.toFixed(1)}`);
-  const pulls = now.pulls.map((pull) => `pulled by ${pull.moved_mm.toFixed(1)} mm with ${pull.force_n.toFixed(2)} N`);
-  const text = [...strong, ...pulls].join(", ");
-  const twin = byId("twin");
-  if (twin.textContent !== text) twin.textContent = text;
+  if (pose && welcome && (message.resting || !message.playing)) write("twin", sentenceOf(message, pose, welcome.columns));
 }
 
 function takeBinary(message: Binary): void {
@@ -228,6 +236,9 @@ function takeBinary(message: Binary): void {
     case "mesh":
       newHead.useMesh(message.mesh);
       break;
+    case "file":
+      making.useFile(message.name, message.type, message.bytes);
+      break;
     case "muscles":
       stage.head?.useMuscles(message.muscles);
       break;
@@ -243,7 +254,7 @@ function takeBinary(message: Binary): void {
 }
 
 function takeOther(message: Record<string, any>): void {
-  if (message.type === "error" && !newHead.useError(String(message.message))) say(String(message.message));
+  if (message.type === "error" && !document.querySelector("#export-dialog[open]") && !newHead.useError(String(message.message))) say(String(message.message));
   if (message.type === "saved") {
     byId("file-name").textContent = message.path;
     if (welcome) {
@@ -260,11 +271,14 @@ function takeOther(message: Record<string, any>): void {
   }
   if (message.type === "steers" && welcome) welcome.steers = true;
   if (message.type === "steers") say("This page steers now.", true);
+  if (message.type === "camera") camera.useState(message);
+  if (message.type === "performed") camera.usePerformed(message);
+  if (message.type === "job") making.useJob(message as Job);
   if (message.type === "meshes") newHead.useMeshes(message.files);
   if (message.type === "landmarks_saved") newHead.useSaved(message.path);
   if (message.type === "landmarks_found") newHead.useFound(message);
   if (message.type === "fit") newHead.useFit(message);
-  if (message.type === "files") showFiles(message.scripts, message.samples);
+  if (message.type === "files") files.showList(message.scripts, message.samples);
 }
 
 function connected(yes: boolean): void {
@@ -295,24 +309,7 @@ function setSight(sight: Sight): void {
   stage.show(sight);
   engine.send({ type: "sights", strain: sight === "strain", muscles: sight === "muscles", skull: sight === "skull" });
   if (sight === "skull" && stage.head && !stage.head.hasSkull) say("The bones are being estimated. This takes some seconds.", true);
-  const legend = byId("legend");
-  legend.hidden = sight !== "strain" && sight !== "muscles";
-  if (legend.hidden) return;
-  const canvas = h("canvas", { width: 170, height: 10, "aria-hidden": true });
-  const context = canvas.getContext("2d")!;
-  for (let x = 0; x < 170; x++) {
-    const part = x / 169;
-    const c = scene?.strain_colours[Math.round(255 * part)] ?? [0, 0, 0];
-    context.fillStyle =
-      sight === "muscles" ? `#${activationColour(part).getHexString()}` : `rgb(${c.map((v) => Math.round(255 * v)).join(",")})`;
-    context.fillRect(x, 0, 1, 10);
-  }
-  const ends = sight === "muscles" ? ["0", "1"] : ["−0.4", "0.4"];
-  legend.replaceChildren(
-    sight === "muscles" ? "activation" : "principal strain of the skin",
-    canvas,
-    h("div", {}, h("span", {}, ends[0]), h("span", {}, ends[1])),
-  );
+  showLegend(sight, scene?.strain_colours ?? []);
 }
 
 function fillLandmarks(now: Scene): void {
@@ -378,32 +375,6 @@ function step(frames: number): void {
   seek(Math.min(script.duration_s, Math.max(0, from + frames / 60)));
 }
 
-function save(): void {
-  if (welcome?.file) {
-    void engine.ask({ type: "save" }).then((error) => {
-      if (error && /changed meanwhile/.test(error)) askName();
-    });
-  } else askName();
-}
-
-function askName(): void {
-  const name = byId<HTMLInputElement>("save-name");
-  name.value = welcome?.file ?? "script.json";
-  byId<HTMLDialogElement>("save-dialog").showModal();
-  name.select();
-}
-
-function showFiles(scripts: string[], samples: string[]): void {
-  const dialog = byId<HTMLDialogElement>("open-dialog");
-  const entry = (text: string, message: Record<string, unknown>) =>
-    h("li", {}, h("button", { onclick: () => (dialog.close(), engine.send(message)) }, text));
-  const list = (id: string, entries: HTMLElement[]) =>
-    byId(id).replaceChildren(...(entries.length > 0 ? entries : [h("li", { class: "hint" }, "none")]));
-  list("scripts", scripts.map((path) => entry(path, { type: "open", path })));
-  list("samples", samples.map((sample) => entry(sample.replaceAll("_", " "), { type: "open", sample })));
-  if (!dialog.open) dialog.showModal();
-}
-
 function addEvent(choice: string): void {
   if (!choice || !script || !state) return;
   if (choice === "say") {
@@ -421,14 +392,6 @@ function addEvent(choice: string): void {
   edit(edits);
 }
 
-/// A copy without the engine: the browser saves it where it saves files.
-function download(): void {
-  if (!script) return;
-  const text = JSON.stringify(script.script, null, 2) + "\n";
-  const link = h("a", { href: URL.createObjectURL(new Blob([text], { type: "application/json" })), download: "script.json" });
-  link.click();
-}
-
 function on(id: string, type: string, does: () => void): void {
   byId(id).addEventListener(type, does);
 }
@@ -436,11 +399,12 @@ on("play", "click", playOrPause);
 on("to-start", "click", () => seek(0));
 on("undo", "click", undo);
 on("redo", "click", () => engine.send({ type: "redo" }));
-on("save", "click", save);
+on("save", "click", () => files.save());
+on("export", "click", () => making.show());
 on("open", "click", () => engine.send({ type: "files" }));
 on("new-head", "click", () => newHead.show(welcome?.folder ?? ""));
 on("help", "click", () => byId<HTMLDialogElement>("help-dialog").showModal());
-on("copy", "click", download);
+on("copy", "click", () => script && download(script.script));
 on("tool-turn", "click", () => setHand(false));
 on("tool-hand", "click", () => setHand(true));
 on("pull-options", "click", () => openPullOptions(byId("pull-options").getAttribute("aria-expanded") !== "true"));
@@ -468,12 +432,6 @@ byId<HTMLDialogElement>("say-dialog").addEventListener("close", () => {
   speech.allow();
   engine.send({ type: "say", text: byId<HTMLInputElement>("say-text").value, voice: byId<HTMLInputElement>("say-voice").value });
 });
-byId<HTMLDialogElement>("save-dialog").addEventListener("close", () => {
-  const dialog = byId<HTMLDialogElement>("save-dialog");
-  if (dialog.returnValue !== "save") return;
-  const path = byId<HTMLInputElement>("save-name").value;
-  engine.send({ type: "save", path, overwrite: path === welcome?.file });
-});
 const cameraSelect = byId<HTMLSelectElement>("camera");
 cameras.forEach(({ name }, index) => {
   cameraSelect.append(h("option", { value: index }, `${index + 1}  ${name}`));
@@ -491,7 +449,7 @@ document.addEventListener("keydown", (event) => {
   if (document.querySelector("dialog[open]")) return;
   const command = event.ctrlKey || event.metaKey;
   const key = event.key.toLowerCase();
-  if (command && key === "s") save();
+  if (command && key === "s") files.save();
   else if (command && (key === "y" || (key === "z" && event.shiftKey))) engine.send({ type: "redo" });
   else if (command && key === "z" && !typing) undo();
   else if (command && key === "a" && !typing) timeline.selectAll();
@@ -502,6 +460,7 @@ document.addEventListener("keydown", (event) => {
   else if (key === "k" && channels.lastName) engine.send({ type: "key", channel: channels.lastName });
   else if (key === "v") showSecond(byId<HTMLSelectElement>("second-camera").value ? "" : lastSecond);
   else if (key === "m") timeline.mirror();
+  else if (key === "r") recorder.toggle();
   else if (key === "h") setHand(!stage.hand);
   else if (key === "/") channels.focusSearch();
   else if (key === "?") byId<HTMLDialogElement>("help-dialog").showModal();
@@ -512,22 +471,7 @@ document.addEventListener("keydown", (event) => {
   } else return;
   event.preventDefault();
 });
-/// Keys go through the clipboard of the system as text, so that another page can take them.
-let pasteMirrored = false;
-document.addEventListener("keydown", (event) => (pasteMirrored = event.shiftKey), true);
-const inField = (event: ClipboardEvent) => event.target instanceof HTMLInputElement && !["range", "checkbox"].includes(event.target.type);
-for (const type of ["copy", "cut"] as const)
-  document.addEventListener(type, (event) => {
-    const text = inField(event) || !getSelection()?.isCollapsed ? null : timeline.copy();
-    if (text === null) return;
-    event.clipboardData?.setData("text/plain", text);
-    event.preventDefault();
-    if (type === "cut") timeline.remove();
-  });
-document.addEventListener("paste", (event) => {
-  if (inField(event) || document.querySelector("dialog[open]")) return;
-  if (timeline.paste(event.clipboardData?.getData("text/plain") ?? "", pasteMirrored)) event.preventDefault();
-});
+useClipboard({ copy: () => timeline.copy(), remove: () => timeline.remove(), paste: (text, mirrored) => timeline.paste(text, mirrored) });
 
 // The engine that is started again has another address, which differs only behind the #: the browser would not load it.
 window.addEventListener("hashchange", () => location.reload());
@@ -547,6 +491,8 @@ window.addEventListener("beforeunload", (event) => {
   scrubbed: () => speech.scrubbed,
   said: () => said,
   newHead: () => newHead.debug,
+  camera: () => camera.debug,
+  sendBytes: (bytes: ArrayBuffer) => engine.sendBytes(bytes),
   mandible: (at: Vec) => stage.head?.mandiblePoint(at)?.toArray() ?? null,
   ask: (message: Record<string, unknown>) => engine.ask(message),
   cut: (wait_ms: number) => engine.cut(wait_ms),

@@ -93,6 +93,7 @@ export interface State {
   tick: number;
   t_s: number;
   playing: boolean;
+  recording: boolean;
   computing: boolean;
   computed_s: number;
   resting: boolean;
@@ -183,6 +184,7 @@ const enum Kind {
   muscles = 4,
   mesh = 5,
   skull = 6,
+  file = 7,
   sound = 0x46464952, // "RIFF": a WAV file as it is
 }
 
@@ -193,6 +195,7 @@ export type Binary =
   | { kind: "muscles"; muscles: Muscles }
   | { kind: "mesh"; mesh: MeshFrame }
   | { kind: "skull"; skull: Skull }
+  | { kind: "file"; name: string; type: string; bytes: Uint8Array }
   | { kind: "sound"; bytes: ArrayBuffer };
 
 interface Place {
@@ -259,6 +262,7 @@ export function decode(data: ArrayBuffer): Binary {
     const bone = (one: Record<string, Place>): Bone => ({ vertices: f32(one.vertices), triangles: u32(one.triangles) });
     return { kind: "skull", skull: { cranium: bone(head.cranium), mandible: bone(head.mandible) } };
   }
+  if (kind === Kind.file) return { kind: "file", name: head.name, type: head.type, bytes: u8(head.bytes) };
   if (kind === Kind.mesh) return { kind: "mesh", mesh: { ...head, vertices: f32(head.vertices), triangles: u32(head.triangles) } };
   throw new Error(`a message of an unknown kind ${kind}`);
 }

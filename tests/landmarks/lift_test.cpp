@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "risorius/landmarks/detail/face_points.h"
-#include "risorius/landmarks/detail/similarity.h"
 #include "risorius/landmarks/detail/smooth_field.h"
+#include "risorius/landmarks/similarity.h"
 
 namespace risorius::landmarks {
 namespace {

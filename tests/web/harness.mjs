@@ -62,7 +62,15 @@ export async function test(name, body) {
 
 export const browser = await chromium.launch({
   executablePath: "/usr/bin/chromium",
-  args: ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"],
+  args: [
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--no-sandbox",
+    // A test may write this file before the page asks for a camera.
+    "--use-fake-ui-for-media-stream",
+    "--use-fake-device-for-media-stream",
+    `--use-file-for-fake-video-capture=${join(folder, "camera.mjpeg")}`,
+  ],
 });
 // One browser of one person: what it keeps, later pages find.
 const context = await browser.newContext();

@@ -60,6 +60,10 @@ void add_coding(CLI::App& command, animate::RenderRequest& options) {
                     "when the recording begins earlier")
         ->type_name("INT")
         ->group(kCoding);
+    command
+        .add_flag("--no-sound{false}", options.sound,
+                  "Leave the sound of what the script says out of the video")
+        ->group(kCoding);
 }
 
 void add_view(CLI::App& command, animate::RenderRequest& options, std::string& size) {

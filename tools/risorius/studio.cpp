@@ -5,7 +5,6 @@
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "risorius/core/data_folder.h"
 #include "risorius/core/error.h"
@@ -13,13 +12,11 @@
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
-#include "risorius/face/view/skull.h"
-#include "risorius/render/offscreen_view.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/talk/say_edit.h"
 #include "risorius/talk/say_event.h"
 #include "risorius/view/document.h"
-#include "risorius/view/scene_frame.h"
+#include "tools/risorius/project_files.h"
 
 namespace risorius::cli {
 
@@ -30,8 +27,6 @@ namespace {
 constexpr long kTicksWithoutPage = 60 * 60;  // a minute
 constexpr int kFirstCredit = 2;
 constexpr std::size_t kMostWaiting = 8;  // messages; a page that does not read gets no poses
-constexpr double kBoneStep_mm = 2.5;     // coarser than in videos: it comes sooner
-constexpr int kSkinPicture_px = 1024, kPartPicture_px = 256;
 
 Json new_script(const fs::path& rig) {
     return json_object({{"format", "risorius-script"},
@@ -42,54 +37,8 @@ Json new_script(const fs::path& rig) {
                         {"events", Json::array()}});
 }
 
-/// The format that a JSON file says it has.
-std::string format_of(const Json& json) {
-    return json.is_object() && json.contains("format") && json["format"].is_string()
-               ? json["format"].get<std::string>()
-               : "";
-}
-
-/// Whether a small file is a script; what cannot be read is none.
-bool is_script(const fs::path& file) {
-    constexpr std::uintmax_t kMostBytes = 300'000;
-    std::error_code failed;
-    if (!fs::is_regular_file(file, failed) || fs::file_size(file, failed) > kMostBytes || failed)
-        return false;
-    try {
-        return format_of(json_or_null(read_json_text(file))) == "risorius-script";
-    } catch (const Error&) {
-        return false;
-    }
-}
-
 std::string error_text(const Json& id, const std::string& text) {
     return json_text(json_object({{"type", "error"}, {"id", id}, {"message", text}}));
-}
-
-/// The pictures of what a scene has no pictures for.
-std::vector<std::shared_ptr<const std::string>> painted(const render::Scene& scene) {
-    std::vector<std::shared_ptr<const std::string>> out;
-    const auto add = [&](const char* material, const Image& picture) {
-        out.push_back(std::make_shared<const std::string>(view::encode_picture(material, picture)));
-    };
-    if (!scene.textures.empty()) {
-        for (std::size_t i = 0; i < scene.textures.size(); ++i)
-            add(std::to_string(i).c_str(), scene.textures[i]);
-    }
-    const auto textured = [&](render::Material material) {
-        return std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const auto& one) {
-            return one.material == material && one.texture < 0 && one.texcoords.rows() > 0;
-        });
-    };
-    const render::OffscreenView view(
-        scene, {.width_px = kSkinPicture_px / 2, .height_px = kSkinPicture_px / 2});
-    if (textured(render::Material::kSkin)) add("skin", view.skin_texture(scene, kSkinPicture_px));
-    for (const auto& [material, name] : {std::pair{render::Material::kEye, "eye"},
-                                         {render::Material::kTeeth, "teeth"},
-                                         {render::Material::kGums, "gums"},
-                                         {render::Material::kTongue, "tongue"}})
-        if (textured(material)) add(name, view.part_texture(scene, material, kPartPicture_px));
-    return out;
 }
 
 }  // namespace
@@ -99,6 +48,7 @@ Studio::Studio(const fs::path& file, const std::string& quality) : quality_(qual
     const fs::path place = file.empty() ? fs::current_path() : fs::absolute(file).parent_path();
     folder_ = fs::weakly_canonical(place);
     head_ = std::make_unique<StudioHead>(folder_);
+    export_ = std::make_unique<StudioExport>(folder_);
     open(given);
 }
 
@@ -132,6 +82,9 @@ void Studio::open(const fs::path& file) {
             planned_ = sound_of(speech);
             return read;
         }});
+    opened.rig = fs::weakly_canonical(files->file);
+    opened.rig_files = files;
+    perform_.finish();
     bones_.reset();  // waits: the bones are those of the session that goes
     skull_.reset();
     script_ = std::move(opened);
@@ -145,6 +98,8 @@ void Studio::run(serve::WebServer& server, const std::function<bool()>& stopped)
     const serve::Handler handler{
         .opened = [this](serve::Peer& peer) { opened(peer); },
         .text = [this](serve::Peer& peer, const std::string& message) { text(peer, message); },
+        .binary = [this](serve::Peer& peer,
+                         const std::string& bytes) { camera_picture(peer, bytes); },
         .closed = [this](serve::Peer& peer) { closed(peer); },
         .tick = [this] { tick(); }};
     make_pictures(server);
@@ -152,52 +107,9 @@ void Studio::run(serve::WebServer& server, const std::function<bool()>& stopped)
     painter_.reset();
     bones_.reset();
     head_->finish();
+    export_->finish();
+    perform_.finish();
     if (script_.session->dirty()) write_recovery();
-}
-
-// The pictures take seconds to paint: the face moves meanwhile.
-void Studio::make_pictures(serve::WebServer& server) {
-    painter_ = std::make_unique<std::jthread>(
-        [this, &server, scene = script_.session->drawn_scene(), of = script_.session.get()] {
-            std::vector<std::shared_ptr<const std::string>> pictures;
-            try {
-                pictures = painted(scene);
-            } catch (const std::exception&) {
-                return;  // the page has plain colours
-            }
-            server.post([this, pictures = std::move(pictures), of] {
-                if (script_.session.get() != of) return;
-                pictures_ = pictures;
-                for (const Page& page : pages_)
-                    for (const auto& picture : pictures_) page.peer->send_binary(picture);
-            });
-        });
-}
-
-// The bones take seconds as well.
-void Studio::make_skull() {
-    if (skull_) return send_skull();
-    if (bones_) return;
-    bones_ = std::make_unique<std::jthread>([this, of = script_.session.get()] {
-        std::shared_ptr<const std::string> skull;
-        try {
-            skull = std::make_shared<const std::string>(
-                view::encode_skull(face::estimate_skull(of->head(), of->rig(), kBoneStep_mm)));
-        } catch (const std::exception&) {
-            return;  // a head whose bones cannot be told has none here
-        }
-        server_->post([this, skull, of] {
-            if (script_.session.get() != of) return;
-            skull_ = skull;
-            send_skull();
-        });
-    });
-}
-
-void Studio::send_skull() {
-    for (Page& page : pages_)
-        if (page.wants_skull && !std::exchange(page.has_skull, true))
-            page.peer->send_binary(skull_);
 }
 
 Studio::Page* Studio::page_of(const serve::Peer& peer) {
@@ -218,6 +130,7 @@ void Studio::greet(Page& page) {
     page.peer->send_text(script_.session->document());
     send_sound(page);
     for (const auto& picture : pictures_) page.peer->send_binary(picture);
+    if (export_->running()) page.peer->send_text(export_->last());
     page.credit = kFirstCredit;
     pose_waits_ = true;
 }
@@ -233,6 +146,9 @@ void Studio::closed(serve::Peer& peer) {
     const bool steered = !pages_.empty() && pages_.front().peer == &peer;
     std::erase_if(pages_, [&](const Page& page) { return page.peer == &peer; });
     if (!steered) return;
+    perform_.finish();
+    script_.session->receive(
+        json_text(json_object({{"type", "perform"}, {"values", Json::object()}})));
     // Nobody holds the skin any more.
     const Json state = json_or_null(script_.session->state());
     for (const Json& pull : state["pulls"])
@@ -274,7 +190,7 @@ void Studio::text(serve::Peer& peer, const std::string& message) {
         return;
     }
     if (is("files")) {
-        peer.send_text(files());
+        peer.send_text(list_of_scripts(folder_));
         return;
     }
     if (page != &pages_.front()) {
@@ -290,11 +206,15 @@ void Studio::text(serve::Peer& peer, const std::string& message) {
         } else if (is("meshes") || is("mesh") || is("save_landmarks") || is("fit") ||
                    is("find_landmarks")) {
             new_head(peer, type.get<std::string>(), cursor);
+        } else if (is("camera")) {
+            camera(cursor);
+        } else if (is("render") || is("shapes") || is("cancel") || is("result")) {
+            make(peer, type.get<std::string>(), cursor);
         } else if (is("open")) {
             const auto sample = cursor.find("sample");
             const fs::path file = sample ? data_folder() / "samples" /
                                                fs::path(sample->string()).filename() / "script.json"
-                                         : in_project(cursor.at("path"));
+                                         : project_script(cursor.at("path"));
             if (script_.session->dirty()) write_recovery();
             open(file);
             for (Page& one : pages_) greet(one);
@@ -369,8 +289,56 @@ void Studio::new_head(serve::Peer& peer, const std::string& type, const JsonCurs
     tell_all(json_text(json_object({{"type", "fit"}, {"state", "running"}})));
 }
 
+/// The page that steers may have a camera: what it sees moves the face.
+void Studio::camera(const JsonCursor& message) {
+    perform_.receive(message, script_.rig_files, *server_,
+                     {.tell = [this](const std::string& text) { tell_all(text); },
+                      .values =
+                          [this](const std::map<std::string, double>& values) {
+                              Json json = Json::object();
+                              for (const auto& [name, value] : values) json[name] = value;
+                              script_.session->receive(
+                                  json_text(json_object({{"type", "perform"}, {"values", json}})));
+                              pose_waits_ = true;
+                          }});
+}
+
+void Studio::camera_picture(serve::Peer& peer, const std::string& bytes) {
+    if (pages_.empty() || &peer != pages_.front().peer) return;
+    try {
+        perform_.picture(bytes);
+    } catch (const Error& error) {
+        peer.send_text(error_text(nullptr, error.what()));
+    }
+}
+
+/// The script as it is played, for what is made of it.
+ScriptNow Studio::script_now() const {
+    const std::string text = script_.session->script_text();
+    ScriptNow now{script_.file, false, text, script_.rig};
+    const ReadingFormerOutput script_may_be_replaced;
+    std::error_code failed;
+    now.saved = !script_.session->dirty() && fs::exists(script_.file, failed) &&
+                read_json_text(script_.file) == script_.on_disk;
+    return now;
+}
+
+void Studio::make(serve::Peer& peer, const std::string& type, const JsonCursor& message) {
+    const auto tell = [this](const std::string& text) { tell_all(text); };
+    if (type == "render") {
+        export_->render(message, script_now(), *server_, tell);
+    } else if (type == "shapes") {
+        export_->shapes(message, script_now(), *server_, tell);
+    } else if (type == "cancel") {
+        export_->cancel();
+    } else {
+        peer.send_binary(std::make_shared<const std::string>(export_->result(message)));
+    }
+}
+
 void Studio::tick() {
-    idle_ticks_ = pages_.empty() && ever_seen_ ? idle_ticks_ + 1 : 0;
+    const bool nobody = pages_.empty() && ever_seen_ && !export_->running();
+    idle_ticks_ = nobody ? idle_ticks_ + 1 : 0;
     if (pages_.empty()) return;
     const auto begin = std::chrono::steady_clock::now();
     const bool moved = script_.session->tick();
@@ -406,14 +374,8 @@ void Studio::send_pose(bool moved) {
 
 // Files
 
-/// A file below the project, with links resolved.
-fs::path Studio::in_project(const JsonCursor& name) const {
-    const std::string text = name.string();
-    const fs::path file = fs::weakly_canonical(folder_ / fs::path(text));
-    const fs::path below = file.lexically_relative(folder_);
-    const bool inside = !text.empty() && !below.empty() && *below.begin() != ".." && below != ".";
-    if (!inside || file.extension() != ".json") name.fail("a file .json below " + folder_.string());
-    return file;
+fs::path Studio::project_script(const JsonCursor& name) const {
+    return in_project(folder_, name, {".json"}, "a file .json");
 }
 
 void Studio::save(const JsonCursor& message) {
@@ -422,8 +384,8 @@ void Studio::save(const JsonCursor& message) {
     if (!path && script_.file.empty()) message.fail("a name for the script", "none");
     const bool asked = message.has("overwrite") && message.at("overwrite").boolean();
     const fs::path file =
-        path ? in_project(*path)
-             : in_project(JsonCursor::from_json(
+        path ? project_script(*path)
+             : project_script(JsonCursor::from_json(
                    Json(script_.file.lexically_proximate(folder_).string()), "save"));
     const bool same = !script_.file.empty() && file == fs::weakly_canonical(script_.file);
     const ReadingFormerOutput script_may_be_replaced;
@@ -449,31 +411,6 @@ void Studio::save(const JsonCursor& message) {
     tell_all(json_text(json_object(
         {{"type", "saved"}, {"path", file.lexically_proximate(folder_).generic_string()}})));
     tell_all(script_.session->document());
-}
-
-std::string Studio::files() const {
-    Json scripts = Json::array(), samples = Json::array();
-    constexpr int kMost = 200;
-    const ReadingFormerOutput scripts_may_be_replaced;
-    std::error_code ignored;
-    std::vector<fs::path> found;
-    for (fs::recursive_directory_iterator at(folder_, fs::directory_options::skip_permission_denied,
-                                             ignored);
-         at != fs::recursive_directory_iterator() && found.size() < kMost; at.increment(ignored)) {
-        if (at.depth() > 2) at.disable_recursion_pending();
-        if (at->path().filename().string().starts_with(".")) at.disable_recursion_pending();
-        if (at->path().extension() == ".json" && is_script(at->path())) found.push_back(at->path());
-    }
-    std::sort(found.begin(), found.end());
-    for (const fs::path& file : found)
-        scripts.push_back(file.lexically_relative(folder_).generic_string());
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(data_folder() / "samples", ignored))
-        if (fs::exists(entry.path() / "script.json"))
-            names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    for (const std::string& name : names) samples.push_back(name);
-    return json_text(json_object({{"type", "files"}, {"scripts", scripts}, {"samples", samples}}));
 }
 
 void Studio::write_recovery() const {

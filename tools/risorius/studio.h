@@ -13,7 +13,9 @@
 #include "risorius/animate/render_inputs.h"
 #include "risorius/serve/web_server.h"
 #include "risorius/view/session.h"
+#include "tools/risorius/studio_export.h"
 #include "tools/risorius/studio_head.h"
+#include "tools/risorius/studio_perform.h"
 #include "tools/risorius/studio_sound.h"
 
 namespace risorius::cli {
@@ -21,7 +23,9 @@ namespace risorius::cli {
 /// A script that is open, and its file.
 struct OpenScript {
     std::filesystem::path file;  ///< where it is saved; empty: it has no name yet
-    std::string on_disk;         ///< the bytes of the file when it was read or written last
+    std::filesystem::path rig;
+    std::shared_ptr<const scene::RigFiles> rig_files;
+    std::string on_disk;  ///< the bytes of the file when it was read or written last
     std::unique_ptr<view::Session> session;
 };
 
@@ -49,6 +53,8 @@ class Studio {
     void open(const std::filesystem::path& file);
     void opened(serve::Peer& peer);
     void text(serve::Peer& peer, const std::string& message);
+    void camera_picture(serve::Peer& peer, const std::string& bytes);
+    void camera(const JsonCursor& message);
     void closed(serve::Peer& peer);
     void tick();
     void greet(Page& page);
@@ -59,18 +65,21 @@ class Studio {
     void save(const JsonCursor& message);
     void say(serve::Peer& peer, const JsonCursor& message);
     void new_head(serve::Peer& peer, const std::string& type, const JsonCursor& message);
-    std::string files() const;
+    ScriptNow script_now() const;
+    void make(serve::Peer& peer, const std::string& type, const JsonCursor& message);
     void write_recovery() const;
     void make_skull();
     void send_skull();
     void make_pictures(serve::WebServer& server);
     Page* page_of(const serve::Peer& peer);
-    std::filesystem::path in_project(const JsonCursor& name) const;
+    std::filesystem::path project_script(const JsonCursor& name) const;
 
     std::string quality_;
     std::filesystem::path folder_;  ///< the project: canonical
     animate::RenderInputs inputs_;
     std::unique_ptr<StudioHead> head_;
+    std::unique_ptr<StudioExport> export_;
+    StudioPerform perform_;
     OpenScript script_;
     ScriptSound planned_, sound_;  ///< of the script that was read last; what the pages have
     std::vector<Page> pages_;

@@ -13,8 +13,8 @@
 #include "risorius/io/read_mesh.h"
 #include "risorius/landmarks/propose_landmarks.h"
 #include "risorius/report/atomic_file.h"
-#include "risorius/report/run_program.h"
 #include "risorius/view/scene_frame.h"
+#include "tools/risorius/project_files.h"
 
 namespace risorius::cli {
 
@@ -60,11 +60,7 @@ std::string StudioHead::meshes() const {
 std::string StudioHead::mesh(const JsonCursor& message) {
     message.allow_keys({"type", "id", "path"});
     const JsonCursor path = message.at("path");
-    const fs::path file = fs::weakly_canonical(folder_ / fs::path(path.string()));
-    const fs::path below = file.lexically_relative(folder_);
-    const bool inside = !below.empty() && *below.begin() != ".." && below != ".";
-    if (!inside || !mesh_endings().contains(file.extension().string()))
-        path.fail("a mesh below " + folder_.string());
+    const fs::path file = in_project(folder_, path, mesh_endings(), "a mesh");
     const geom::PolygonMesh mesh = io::read_mesh(file);
     open_ = Opened{file, mesh.from_file.inverse()};
     return view::encode_mesh(mesh, name_of(file), name_of(rig_file()));
@@ -98,31 +94,21 @@ fs::path StudioHead::write_landmarks(const JsonCursor& message) const {
 
 void StudioHead::fit(const JsonCursor& message, const fs::path& landmarks, serve::WebServer& server,
                      std::function<void(const std::string&)> done) {
-    if (running_) message.fail("one fit at a time", "another that runs");
+    if (fit_.running()) message.fail("one fit at a time", "another that runs");
     const fs::path rig = rig_file();
     ask_to_replace(message, rig);
-    std::vector<std::string> command{fs::read_symlink("/proc/self/exe").string(), "fit",
-                                     open_->file.string()};
-    command.insert(command.end(), {"--landmarks", landmarks.string(), "--out", rig.string()});
+    std::vector<std::string> arguments{"fit", open_->file.string()};
+    arguments.insert(arguments.end(), {"--landmarks", landmarks.string(), "--out", rig.string()});
     const auto quick = message.find("quick");
-    if (quick && quick->boolean()) command.push_back("--no-calibrate");
-    running_ = true;
-    fit_ = std::make_unique<std::jthread>([this, command, rig = name_of(rig), &server, done] {
-        report::ProgramResult result;
-        try {
-            result = report::run_program(command);
-        } catch (const std::exception& error) {
-            result = {1, error.what()};
-        }
-        const Json told = json_object({{"type", "fit"},
-                                       {"state", result.exit_code == 0 ? "done" : "failed"},
-                                       {"rig", rig},
-                                       {"text", result.output}});
-        server.post([this, done, text = json_text(told)] {
-            running_ = false;
-            done(text);
-        });
-    });
+    if (quick && quick->boolean()) arguments.push_back("--no-calibrate");
+    fit_.start(arguments, server,
+               {.progress = {},
+                .ended = [rig = name_of(rig), done](int exit_code, bool, const std::string& text) {
+                    done(json_text(json_object({{"type", "fit"},
+                                                {"state", exit_code == 0 ? "done" : "failed"},
+                                                {"rig", rig},
+                                                {"text", text}})));
+                }});
 }
 
 void StudioHead::find(const JsonCursor& message, serve::WebServer& server,

@@ -13,6 +13,7 @@
 #include "risorius/core/json_cursor.h"
 #include "risorius/geom/polygon_mesh.h"
 #include "risorius/serve/web_server.h"
+#include "tools/risorius/child_job.h"
 
 namespace risorius::cli {
 
@@ -42,9 +43,9 @@ class StudioHead {
     void find(const JsonCursor& message, serve::WebServer& server,
               std::function<void(const std::string&)> done);
 
-    /// Waits for a fit or a search that runs.
+    /// Ends a fit that runs, and waits for a search.
     void finish() {
-        fit_.reset();
+        fit_.finish();
         search_.reset();
     }
 
@@ -58,8 +59,9 @@ class StudioHead {
 
     std::filesystem::path folder_;
     std::optional<Opened> open_;
-    std::unique_ptr<std::jthread> fit_, search_;
-    bool running_ = false, searching_ = false;
+    ChildJob fit_;
+    std::unique_ptr<std::jthread> search_;
+    bool searching_ = false;
 };
 
 }  // namespace risorius::cli

@@ -6,6 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <optional>
 
 #include "risorius/core/error.h"
 #include "risorius/core/result_cache.h"
@@ -17,6 +19,15 @@ namespace {
 
 constexpr double kQuiet_s = 2, kBarEvery_s = 0.1, kLineEvery_s = 30;
 
+/// A program that starts this one may want lines of progress more often, and from the start.
+std::optional<double> asked_line_every_s() {
+    const char* asked = std::getenv("RISORIUS_PROGRESS_S");
+    if (!asked || !*asked) return std::nullopt;
+    const double seconds = std::atof(asked);
+    if (seconds > 0) return seconds;
+    return std::nullopt;
+}
+
 std::string time_text(double seconds) {
     const int whole = static_cast<int>(seconds + 0.5);
     char text[32];
@@ -27,7 +38,13 @@ std::string time_text(double seconds) {
 }  // namespace
 
 ProgressBar::ProgressBar(const Common& common)
-    : wanted_(!common.quiet), on_terminal_(::isatty(STDERR_FILENO) == 1) {}
+    : wanted_(!common.quiet),
+      on_terminal_(::isatty(STDERR_FILENO) == 1),
+      quiet_s_(kQuiet_s),
+      every_s_(on_terminal_ ? kBarEvery_s : kLineEvery_s) {
+    if (const auto asked = asked_line_every_s(); asked && !on_terminal_)
+        quiet_s_ = every_s_ = *asked;
+}
 
 ProgressBar::~ProgressBar() {
     if (shown_ && on_terminal_) std::fprintf(stderr, "\r\033[K");
@@ -45,8 +62,7 @@ void ProgressBar::show(double fraction, const std::string& what) {
     const auto since = [&](Clock::time_point then) {
         return std::chrono::duration<double>(now - then).count();
     };
-    if (since(begin_) < kQuiet_s || since(last_) < (on_terminal_ ? kBarEvery_s : kLineEvery_s))
-        return;
+    if (since(begin_) < quiet_s_ || since(last_) < every_s_) return;
     last_ = now;
     shown_ = true;
     constexpr int kWidth = 30;

@@ -47,6 +47,8 @@ media::VideoOptions video_options(const RenderRequest& request, const RenderJob&
     const bool is_h264 =
         request.out.extension() == ".mp4" || (request.out.extension() == ".mov" && !video.alpha);
     if (request.draft && is_h264 && !video.preset) video.preset = "ultrafast";
+    if (!request.sound && request.audio)
+        throw Error(option_name("audio"), "a video with sound", "one without");
     if (request.audio_offset && !request.audio)
         throw Error(option_name("audio_offset"), "a recording, by " + option_name("audio"), "none");
     if (!request.audio) return video;
@@ -251,7 +253,7 @@ void plan_times(const RenderRequest& request, RenderJob& job) {
 
 /// The sound of what is said, unless the request has another.
 void add_spoken_sound(const RenderRequest& request, RenderJob& job) {
-    if (request.audio || job.still || job.speech.sound_file.empty()) return;
+    if (!request.sound || request.audio || job.still || job.speech.sound_file.empty()) return;
     job.video.sound =
         std::make_shared<media::Recording>(media::open_recording(job.speech.sound_file));
     job.video.sound_offset_samples = job.speech.sound_offset_samples;

@@ -48,6 +48,7 @@ struct RenderRequest {
     std::optional<double> still_s;      ///< a still of this time instead of a video
     /// How the video is encoded. plan_render_job() sets size, frame rate, transparency and sound.
     media::VideoOptions video{};
+    bool sound = true;  ///< false: the video has no sound, whatever the script says
     std::optional<std::filesystem::path> audio;  ///< WAV or FLAC
     /// Time from the first frame to the first sample of the recording, in samples at the recording's own rate.
     std::optional<std::int64_t> audio_offset;

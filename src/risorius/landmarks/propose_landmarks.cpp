@@ -14,7 +14,7 @@
 #include "risorius/landmarks/detail/certainty.h"
 #include "risorius/landmarks/detail/landmark_pictures.h"
 #include "risorius/landmarks/detail/registration.h"
-#include "risorius/landmarks/detail/similarity.h"
+#include "risorius/landmarks/similarity.h"
 #include "risorius/rig/head.h"
 
 namespace risorius::landmarks {

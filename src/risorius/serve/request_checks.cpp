@@ -37,7 +37,8 @@ bool is_this_page(std::string_view origin, int port) {
 
 const char* const kContentPolicy =
     "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' "
-    "data: blob:; connect-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; "
+    "data: blob:; media-src 'self' blob:; connect-src 'self'; object-src 'none'; base-uri 'none'; "
+    "form-action 'none'; "
     "frame-ancestors 'none'";
 
 Answer answer_to(const RequestHead& request, int port, const Page& page) {

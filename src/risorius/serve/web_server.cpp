@@ -109,11 +109,17 @@ class Socket : public Peer, public std::enable_shared_from_this<Socket> {
                 self->gone();
                 return;
             }
-            if (!self->stream_.got_text() || !self->in_time()) {
+            const bool text = self->stream_.got_text();
+            const bool taken = text || (self->known_ && self->server_.handler->binary);
+            if (!taken || !self->in_time()) {
                 self->end(websocket::close_code::policy_error);
                 return;
             }
-            self->take(beast::buffers_to_string(self->buffer_.data()));
+            const std::string message = beast::buffers_to_string(self->buffer_.data());
+            if (text)
+                self->take(message);
+            else
+                self->server_.handler->binary(*self, message);
             if (!self->ending_) self->read();
         });
     }

@@ -29,12 +29,14 @@ class Peer {
 struct Handler {
     std::function<void(Peer& peer)> opened;
     std::function<void(Peer& peer, const std::string& text)> text;
+    /// Binary messages; empty: they close the connection
+    std::function<void(Peer& peer, const std::string& bytes)> binary{};
     std::function<void(Peer& peer)> closed;
     std::function<void()> tick;  ///< every 1/60 s; what is late is left out
 };
 
 struct ServerLimits {
-    std::size_t text_bytes = 1 << 20;  ///< of a message
+    std::size_t text_bytes = 1 << 20;  ///< of a message, binary ones too
     int messages_per_s = 400;          ///< of a connection; more close it
     double hello_s = 2;  ///< time for the first message, {"type": "hello", "token": ...}
     int peers = 8;       ///< connections at a time

@@ -18,7 +18,7 @@ namespace risorius::view {
 namespace {
 
 constexpr std::uint32_t kSceneKind = 2, kPictureKind = 3, kMusclesKind = 4, kMeshKind = 5,
-                        kSkullKind = 6;
+                        kSkullKind = 6, kFileKind = 7;
 
 const char* name_of(render::Material material) {
     switch (material) {
@@ -247,6 +247,16 @@ std::string encode_mesh(const geom::PolygonMesh& mesh, const std::string& file,
                                    {"triangles", arrays.add(triangles)},
                                    {"groups", groups}});
     return arrays.message(kMeshKind, head);
+}
+
+std::string encode_file(const std::string& name, const std::string& type,
+                        const std::string& bytes) {
+    Arrays arrays;
+    const Json head =
+        json_object({{"name", name},
+                     {"type", type},
+                     {"bytes", arrays.add(std::vector<std::uint8_t>(bytes.begin(), bytes.end()))}});
+    return arrays.message(kFileKind, head);
 }
 
 }  // namespace risorius::view

@@ -2,7 +2,7 @@
 /// \file
 /// What the page draws, as bytes: surfaces, texture coordinates and the shape at rest, sent once.
 ///
-/// A message begins with its kind (uint32: 2 scene, 3 picture, 4 muscles) and the length of a JSON text (uint32); the text follows,
+/// A message begins with its kind (uint32: 2 scene, 3 picture, 4 muscles, 5 mesh, 6 skull, 7 file) and the length of a JSON text (uint32); the text follows,
 /// filled up with spaces to a multiple of 4 bytes, then arrays of numbers, each at the `at` that the text gives, from the end of
 /// the text. All numbers are little-endian.
 #pragma once
@@ -38,5 +38,8 @@ std::string encode_skull(const face::Skull& skull);
 /// a range of triangles.
 std::string encode_mesh(const geom::PolygonMesh& mesh, const std::string& file,
                         const std::string& rig);
+
+/// A file that has been made, as it is. `type`: "video/mp4".
+std::string encode_file(const std::string& name, const std::string& type, const std::string& bytes);
 
 }  // namespace risorius::view

@@ -16,13 +16,9 @@
 
 namespace risorius::view {
 
-namespace {
-
-std::string error_message(const Json& id, const std::string& text) {
+std::string Session::error_message(const Json& id, const std::string& text) {
     return json_text(json_object({{"type", "error"}, {"id", id}, {"message", text}}));
 }
-
-}  // namespace
 
 Session::Session(SessionInputs inputs)
     : inputs_(std::move(inputs)),
@@ -159,7 +155,8 @@ const std::map<std::string, Session::Handler>& Session::handlers() {
         {"play", &Session::play},       {"pause", &Session::pause},
         {"seek", &Session::seek},       {"pull", &Session::pull},
         {"pull_to", &Session::pull_to}, {"pull_end", &Session::pull_end},
-        {"sights", &Session::sights},   {"select", &Session::select}};
+        {"sights", &Session::sights},   {"select", &Session::select},
+        {"record", &Session::record},   {"perform", &Session::perform}};
     return table;
 }
 
@@ -229,6 +226,7 @@ void Session::override_channel(const JsonCursor& message) {
         make_live();
         throw;
     }
+    if (recording_ && playing_) recorded_.channels[channel];
 }
 
 void Session::release(const JsonCursor& message) {
@@ -291,12 +289,14 @@ void Session::play(const JsonCursor& message) {
 
 void Session::pause(const JsonCursor&) {
     playing_ = false;
+    finish_recording();
     if (touched()) wake();
 }
 
 void Session::seek(const JsonCursor& message) {
     message.allow_keys({"type", "id", "t_s"});
     const double t_s = message.at("t_s").number({0, 3600});
+    finish_recording();
     frame_ = std::min(std::lround(t_s * 60), last_frame());
     if (playing_) return;
     if (touched())
@@ -328,9 +328,11 @@ void Session::select(const JsonCursor& message) {
 bool Session::tick() {
     ++ticks_;
     try {
-        if (playing_) return tick_playing();
-        if (wanted_ >= 0 && !touched()) return tick_seeking();
-        return tick_live();
+        const bool moved = playing_                     ? tick_playing()
+                           : wanted_ >= 0 && !touched() ? tick_seeking()
+                                                        : tick_live();
+        if (std::exchange(document_changed_, false)) events_.push_back(document());
+        return moved;
     } catch (const Error& error) {
         events_.push_back(error_message(nullptr, error.what()));
         restart_face();
@@ -342,10 +344,11 @@ bool Session::tick_playing() {
     if (++waited_ < every_) return false;
     waited_ = 0;
     if (frame_ >= last_frame()) {
+        if (!loop_) playing_ = false;
+        finish_recording();
         if (loop_) {
             frame_ = -1;
         } else {
-            playing_ = false;
             return true;
         }
     }
@@ -353,6 +356,7 @@ bool Session::tick_playing() {
     if (touched()) {
         frame_ = next;
         record_hands();
+        record_channels();
         const double shift_s = time_s() - face_->time_s() - face_->step_s();
         face_->step([&](double t_s) { return live_drive(std::max(0.0, t_s + shift_s)); });
         face_frame_ = -1;
@@ -426,6 +430,9 @@ void Session::recover() {
 void Session::restart_face() {
     hands_.clear();
     overrides_.clear();
+    performed_.clear();
+    recording_ = false;
+    recorded_ = {};
     playing_ = false;
     wanted_ = -1;
     face_frame_ = -1;

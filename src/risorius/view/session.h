@@ -6,13 +6,15 @@
 /// give the same poses, so that a session can be replayed from its log.
 ///
 /// Moments of the script have been computed from its start, as `render` computes them, and are kept (detail/take.h). Overrides and the pulls
-/// of a hand are not part of the script: while there are any, the face goes on from where it is.
+/// of a hand are not part of the script: while there are any, the face goes on from where it is. What they do while recording is on and the
+/// script plays becomes keys and "pulls" when it stops, as one step of undo.
 #pragma once
 
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,7 @@
 #include "risorius/scene/rig_files.h"
 #include "risorius/track/script.h"
 #include "risorius/track/timeline.h"
+#include "risorius/view/detail/channel_recorder.h"
 #include "risorius/view/detail/pose_frame.h"
 #include "risorius/view/detail/take.h"
 #include "risorius/view/document.h"
@@ -104,7 +107,10 @@ class Session {
     void pull_end(const JsonCursor& message);
     void sights(const JsonCursor& message);
     void select(const JsonCursor& message);
+    void record(const JsonCursor& message);
+    void perform(const JsonCursor& message);
 
+    static std::string error_message(const Json& id, const std::string& text);
     track::ScriptDescription read(const Json& script) const;
     void edit_document(const std::vector<Operation>& operations, const std::string& gesture);
     void use(track::ScriptDescription script);
@@ -116,7 +122,10 @@ class Session {
     double time_s() const { return static_cast<double>(frame_) / 60; }
     Vec3 offset_of(int vertex, const JsonCursor& point_m) const;
     track::Drive live_drive(double t_s) const;
+    static track::PullTrack track_of(const HandPull& hand);
     void record_hands();
+    void record_channels();
+    void finish_recording();
 
     // What ticks do
     bool tick_playing();
@@ -141,7 +150,10 @@ class Session {
 
     std::unique_ptr<track::Timeline> timeline_, live_;
     std::map<std::string, double> overrides_;
+    std::set<std::string> performed_;  // overrides that a camera has made
     std::map<int, HandPull> hands_;
+    bool recording_ = false;
+    Recording recorded_;  // since recording began
     Take take_;
     long frame_ = 0;        // the playhead, 1/60 s
     long face_frame_ = -1;  // the frame of the take at which the face is, or -1

@@ -41,6 +41,7 @@ void Session::pull(const JsonCursor& message) {
         hand.pull.stiffness_n_per_m = k->number({track::kMinPull_n_per_m, track::kMaxPull_n_per_m});
     hand.pull.offset_m = offset_of(hand.pull.vertex, message.at("point_m"));
     if (const auto record = message.find("record")) hand.recorded = record->boolean();
+    hand.recorded = hand.recorded || (recording_ && playing_);
     hand.begin_s = time_s();
     if (hands_.size() >= kMostHands && !hands_.contains(id))
         message.at("pull").fail("at most " + std::to_string(kMostHands) + " pulls at a time");
@@ -60,6 +61,10 @@ void Session::pull_to(const JsonCursor& message) {
     wake();
 }
 
+track::PullTrack Session::track_of(const HandPull& hand) {
+    return {hand.pull.vertex, hand.pull.stiffness_n_per_m, thinned(hand.keys, kStraight_mm)};
+}
+
 void Session::pull_end(const JsonCursor& message) {
     message.allow_keys({"type", "id", "pull"});
     const auto found = hands_.find(id_of_pull(message));
@@ -68,8 +73,11 @@ void Session::pull_end(const JsonCursor& message) {
     hands_.erase(found);
     wake();
     if (!hand.recorded || hand.keys.size() < 2) return;
-    const track::PullTrack track{hand.pull.vertex, hand.pull.stiffness_n_per_m,
-                                 thinned(hand.keys, kStraight_mm)};
+    const track::PullTrack track = track_of(hand);
+    if (recording_) {
+        recorded_.pulls.push_back(track);
+        return;
+    }
     std::vector<Operation> operations;
     const Json& script = document_.json();
     std::size_t count = 0;
@@ -92,6 +100,68 @@ void Session::record_hands() {
         if (!hand.keys.empty() && t_s <= hand.keys.back().time_s) continue;
         hand.keys.push_back({t_s, 1e3 * hand.pull.offset_m});
     }
+}
+
+void Session::record(const JsonCursor& message) {
+    message.allow_keys({"type", "id", "on"});
+    const bool on = message.at("on").boolean();
+    if (!on) finish_recording();
+    recording_ = on;
+}
+
+/// Overrides of many channels at once, by a camera; those that it does not name any more are let go of.
+void Session::perform(const JsonCursor& message) {
+    message.allow_keys({"type", "id", "values"});
+    const JsonCursor values = message.at("values");
+    const auto before = overrides_;
+    const auto performed_before = performed_;
+    for (const std::string& name : std::exchange(performed_, {})) overrides_.erase(name);
+    for (const std::string& name : values.keys()) {
+        overrides_[name] = values.at(name).number();
+        performed_.insert(name);
+    }
+    try {
+        make_live();
+    } catch (const Error&) {
+        overrides_ = before;
+        performed_ = performed_before;
+        make_live();
+        throw;
+    }
+    if (recording_ && playing_)
+        for (const std::string& name : performed_) recorded_.channels[name];
+}
+
+/// A channel that was moved since recording began has its value at every frame from then on, until it is let go of.
+void Session::record_channels() {
+    if (!recording_) return;
+    for (auto& [name, samples] : recorded_.channels)
+        if (const auto now = overrides_.find(name);
+            now != overrides_.end() && (samples.empty() || time_s() > samples.back().time_s))
+            samples.push_back({time_s(), now->second});
+}
+
+/// Writes what was recorded into the script, and lets go of it: now the script does it.
+void Session::finish_recording() {
+    if (!std::exchange(recording_, false)) return;
+    for (auto& [id, hand] : hands_) {
+        if (!std::exchange(hand.recorded, false) || hand.keys.size() < 2) continue;
+        recorded_.pulls.push_back(track_of(hand));
+        hand.keys.clear();
+    }
+    Recording recorded = std::exchange(recorded_, {});
+    std::erase_if(recorded.channels, [](const auto& one) { return one.second.empty(); });
+    if (recorded.empty()) return;
+    for (const auto& [name, unused] : recorded.channels) overrides_.erase(name);
+    try {
+        edit_document(recording_edits(recorded, document_.json(), script_), "");
+    } catch (const Error& error) {
+        make_live();
+        events_.push_back(error_message(nullptr, error.what()));
+        return;
+    }
+    document_changed_ = true;
+    if (!playing_ && !touched()) wanted_ = frame_;
 }
 
 std::string Session::welcome() const {
@@ -168,6 +238,7 @@ std::string Session::state() const {
                      {"tick", ticks_},
                      {"t_s", time_s()},
                      {"playing", playing_},
+                     {"recording", recording_},
                      {"computing", (playing_ && !take_.has(frame_)) || wanted_ >= 0},
                      {"computed_s", static_cast<double>(std::max(0L, take_.valid() - 1)) / 60},
                      {"resting", !playing_ && quiet_ >= kQuietTicks},

@@ -11,8 +11,8 @@
 #include <optional>
 #include <vector>
 
-#include "risorius/landmarks/detail/face_network.h"
 #include "risorius/landmarks/detail/shown_head.h"
+#include "risorius/landmarks/face_network.h"
 
 namespace risorius::landmarks {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "risorius/landmarks/detail/similarity.h"
 #include "risorius/landmarks/detail/smooth_field.h"
+#include "risorius/landmarks/similarity.h"
 
 namespace risorius::landmarks {
 

@@ -9,7 +9,7 @@
 #include "risorius/fitting/part_guess.h"
 #include "risorius/geom/fitted_sphere.h"
 #include "risorius/geom/surface_topology.h"
-#include "risorius/landmarks/detail/face_network.h"
+#include "risorius/landmarks/face_network.h"
 #include "risorius/render/seen_surface.h"
 
 namespace risorius::landmarks {

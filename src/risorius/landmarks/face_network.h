@@ -21,6 +21,8 @@ inline constexpr int kFacePoints = 468, kFacePicture_px = 192;
 struct FaceAnswer {
     double score = 0;          ///< 0..1: whether there is a face
     std::vector<Vec2> points;  ///< kFacePoints, px to the right and down
+    std::vector<double>
+        depth;  ///< of the points, px away from the camera, from the middle of the head: a guess of the network
 };
 
 class FaceNetwork {

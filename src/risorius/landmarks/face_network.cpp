@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/landmarks/detail/face_network.h"
+#include "risorius/landmarks/face_network.h"
 
 #include <cmath>
 #include <cstring>
@@ -200,8 +200,10 @@ FaceAnswer FaceNetwork::look_at(const Picture& picture) const {
     FaceAnswer answer;
     answer.score = 1 / (1 + std::exp(-static_cast<double>(result(impl_->score).values.at(0))));
     const std::vector<float>& xyz = result(impl_->points).values;
-    for (std::size_t k = 0; k < kFacePoints; ++k)
+    for (std::size_t k = 0; k < kFacePoints; ++k) {
         answer.points.emplace_back(xyz.at(3 * k), xyz.at(3 * k + 1));
+        answer.depth.push_back(xyz.at(3 * k + 2));
+    }
     return answer;
 }
 

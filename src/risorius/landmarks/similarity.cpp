@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/landmarks/detail/similarity.h"
+#include "risorius/landmarks/similarity.h"
 
 #include "risorius/core/rotations.h"
 
