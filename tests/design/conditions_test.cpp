@@ -313,7 +313,10 @@ TEST_F(Designs, MatchingNeedsSomethingToMatchTo) {
     EXPECT_NE(with(R"({"motion": {"share": [0.5, 1.5], "of": "intensity"}})")
                   .find("/match/motion/share/1: expected"),
               std::string::npos);
-    with(R"({"motion": {"share": [0.5, 1], "of": "intensity"}})");
+    EXPECT_NE(with(R"({"motion": {"share": [0.5, 1], "of": "intensity"}})")
+                  .find("expected no value of \"intensity\", which match/motion finds, found 0.5"),
+              std::string::npos)
+        << "it is a factor here";
     EXPECT_EQ(read(json).sets[0].factors.back().name, "seen_step");
     EXPECT_NE(with(R"({"luminance": {"mean": 1.5}})").find("/match/luminance/mean: expected"),
               std::string::npos);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "risorius/stimuli/detail/clip.h"
+
 namespace risorius::stimuli {
 namespace {
 
@@ -84,6 +86,29 @@ TEST(Aois, AreNotVisibleFromBehindOrOutsideThePicture) {
     EXPECT_FALSE(aois_of(face_with(15), 0, {"eye_r"}, 100, 0, 100, 200)[0].polygon.empty());
     EXPECT_TRUE(aois_of(face_with(15), 0, {"mouth"}, 100, 0, 200, 200)[0].polygon.empty())
         << "a rig without these landmarks";
+}
+
+/// Browsers take an element of SVG without an end for the parent of the next one, and draw the first alone.
+TEST(Aois, EachIsAnElementOfItsOwnInThePage) {
+    ClipPlan plan;
+    plan.frames = 2;
+    plan.width_px = plan.height_px = 10;
+    plan.clips.aois = {"eye_l", "eye_r"};
+    std::string table = "onset\tduration\tframe\taoi\tvisible\tarea_px\tpolygon\n";
+    for (const char* frame : {"0", "1"})
+        for (const char* name : {"eye_l", "eye_r"})
+            table += std::string("0\t0\t") + frame + "\t" + name + "\t1\t4\t1,1 3,1 3,3\n";
+    report::HtmlWriter html;
+    draw_aois(table, plan, html);
+    const auto count = [&](const std::string& what) {
+        int n = 0;
+        for (std::size_t at = html.html().find(what); at != std::string::npos;
+             at = html.html().find(what, at + 1))
+            ++n;
+        return n;
+    };
+    EXPECT_EQ(count("<polygon "), 10) << "two in each of five frames of the strip";
+    EXPECT_EQ(count("></polygon>"), 10);
 }
 
 }  // namespace

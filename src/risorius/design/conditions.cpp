@@ -168,9 +168,17 @@ Parameters values_of(const Design& design, const ConditionSet& set, std::vector<
     const Parameters before(given);
     for (const Override& one : set.overrides)
         if (holds(one.when, before)) given.insert(given.end(), one.set.begin(), one.set.end());
-    if (design.match.motion)
+    if (design.match.motion) {
+        const MotionMatch& motion = *design.match.motion;
+        for (const Given& one : given)
+            if ((!motion.share.empty() && one.name == motion.of) ||
+                (motion.apex_s && one.name == motion.apex_of))
+                throw Error(one.value.place(),
+                            "no value of " + in_quotes(one.name) + ", which match/motion finds",
+                            one.value.json().dump());
         for (Given& one : matched_motion(design, set, given, search))
             given.push_back(std::move(one));
+    }
     return Parameters(given);
 }
 

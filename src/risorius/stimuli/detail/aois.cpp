@@ -227,13 +227,15 @@ void draw_aois(const std::string& table, const ClipPlan& plan, report::HtmlWrite
             const std::vector<std::string>& cells =
                 rows.cells[static_cast<std::size_t>(frame * names + k)];
             if (cells[4] != "1") continue;
-            html.single("polygon",
-                        {{"points", cells[6]},
-                         {"transform", "translate(" + std::to_string(i * plan.width_px) + " 0)"},
-                         {"fill", "none"},
-                         {"stroke", kColours[static_cast<std::size_t>(k) % kColours.size()]},
-                         {"stroke-width", "1"},
-                         {"vector-effect", "non-scaling-stroke"}});
+            // In an SVG picture every element needs an end, or the next one is taken for its child.
+            html.open("polygon",
+                      {{"points", cells[6]},
+                       {"transform", "translate(" + std::to_string(i * plan.width_px) + " 0)"},
+                       {"fill", "none"},
+                       {"stroke", kColours[static_cast<std::size_t>(k) % kColours.size()]},
+                       {"stroke-width", "1"},
+                       {"vector-effect", "non-scaling-stroke"}});
+            html.close();
         }
     }
     html.close();
