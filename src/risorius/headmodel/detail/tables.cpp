@@ -291,7 +291,7 @@ std::vector<PigmentTone> read_skin_pigments(const std::filesystem::path& file) {
         const auto cell = [&](std::size_t k) { return number(file, cells[r][k]); };
         tones.push_back({cell(0), cell(1), Vec3(cell(2), cell(3), cell(4)), cell(5)});
         if (!(tones.back().albedo.minCoeff() > 0))
-            throw Error(row, "an albedo above 0", format_number(tones.back().albedo.minCoeff()));
+            throw Error(row, "red, green and blue above 0", "one that is not");
         if (tones.size() > 1 && !(tones.back().melanin > tones[tones.size() - 2].melanin))
             throw Error(row, "more melanin than in the row before", cells[r][0]);
     }

@@ -101,8 +101,9 @@ std::vector<Operation> recording_edits(const Recording& recording, const Json& s
     if (!recording.channels.empty() && !script.contains("channels"))
         out.push_back({"/channels", shared(Json::object()), {}});
     for (const auto& [name, samples] : recording.channels) {
-        const auto found = std::find_if(read.channels.begin(), read.channels.end(),
-                                        [&](const auto& one) { return one.name == name; });
+        const auto found =
+            std::find_if(read.channels.begin(), read.channels.end(),
+                         [&called = name](const auto& one) { return one.name == called; });
         const bool known = found != read.channels.end() && script.contains("channels") &&
                            script["channels"].contains(name);
         const track::ChannelTrack* before = known ? &*found : nullptr;
