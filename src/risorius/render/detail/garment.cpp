@@ -15,8 +15,6 @@ namespace risorius::render {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr const char* kNames[] = {"none", "crew_neck", "v_neck"};
-
 /// Radius of the skin about the axis of the neck, by azimuth and height.
 class NeckRadius {
   public:
@@ -166,11 +164,6 @@ class Cutter {
 };
 
 }  // namespace
-
-const std::vector<std::string>& garment_names() {
-    static const std::vector<std::string> names(std::begin(kNames), std::end(kNames));
-    return names;
-}
 
 std::optional<Neckline> Neckline::of(const Scene& scene, const std::string& garment) {
     constexpr double kWider_m = 0.012, kBelowChin_m = 0.020, kFront_m = 0.004, kDip_m = 0.030;
