@@ -175,7 +175,7 @@ Parameters values_of(const Design& design, const ConditionSet& set, std::vector<
                 (motion.apex_s && one.name == motion.apex_of))
                 throw Error(one.value.place(),
                             "no value of " + in_quotes(one.name) + ", which match/motion finds",
-                            one.value.json().dump());
+                            json_text(one.value.json()));
         for (Given& one : matched_motion(design, set, given, search))
             given.push_back(std::move(one));
     }
