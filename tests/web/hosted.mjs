@@ -164,7 +164,7 @@ await test("what needs the program says so", async () => {
   assert.match(await page.locator("#needs-program").textContent(), /need a program on your computer/);
   await shot(page, "hosted-needs-program");
   await page.keyboard.press("Escape");
-  assert.match(await page.evaluate(() => window.studio.ask({ type: "render" })), /Videos are need a program on your computer/);
+  assert.match(await page.evaluate(() => window.studio.ask({ type: "render" })), /Videos are made by a program on your computer/);
   await page.locator("#about-page").click();
   assert.match(await page.locator("#about").textContent(), /Nothing that you do leaves your computer/);
   await page.keyboard.press("Escape");
