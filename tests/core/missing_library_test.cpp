@@ -22,7 +22,9 @@ void expect_same_reading(std::string_view text) {
     const auto b = std::from_chars(text.data(), text.data() + text.size(), theirs);
     EXPECT_EQ(a.ptr - text.data(), b.ptr - text.data()) << text;
     EXPECT_EQ(a.ec, b.ec) << text;
-    if (!std::isnan(theirs)) EXPECT_EQ(own, theirs) << text;
+    if (!std::isnan(theirs)) {
+        EXPECT_EQ(own, theirs) << text;
+    }
 }
 
 TEST(MissingLibrary, WritesAndReadsNumbersAsTheLibrary) {

@@ -129,8 +129,9 @@ TEST(Garment, HidesOnlySkinWellBelowItsBorder) {
     const auto line = Neckline::of(scene, "v_neck");
     EXPECT_GT(std::count(garment.covered.begin(), garment.covered.end(), 1), 400);
     for (Eigen::Index v = 0; v < scene.rest.rows(); ++v)
-        if (garment.covered[static_cast<std::size_t>(v)])
+        if (garment.covered[static_cast<std::size_t>(v)]) {
             EXPECT_GT(line->below_m(scene.rest.row(v).transpose()), 0.012);
+        }
 }
 
 TEST(Garment, MovesWithTheSkin) {
