@@ -100,7 +100,7 @@ void add_people(CLI::App& command, HeadArguments& arguments) {
                        "Multiply what distinguishes the person from the mean: 1.5 gives a "
                        "caricature, 0.5 an anti-caricature");
     command.add_flag("--identity-only", arguments.options.identity_only,
-                     "Write only identity.json, which takes less than a second");
+                     "Write only identity.json, which takes a few seconds");
     CLI::Option* cast = command.add_option(
         "--cast", arguments.cast.count,
         "Choose this many persons that differ, 2 to 200, with --seed. Writes their "

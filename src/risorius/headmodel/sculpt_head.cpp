@@ -196,7 +196,7 @@ headmodel::Identity chosen_identity(const IdentityChoice& choice) {
     identity.hairdo.hairline_form = choice.hairline_form.value_or(identity.hairdo.hairline_form);
     headmodel::check_identity(identity, tables, option_name);
     if (choice.seed)
-        headmodel::deform_within_spread(headmodel::make_head(tables), tables, identity);
+        headmodel::deform_within_spread(headmodel::make_form(tables), tables, identity);
     for (const std::string& text : choice.shape) {
         const std::size_t equals = text.find('=');
         if (equals == std::string::npos)

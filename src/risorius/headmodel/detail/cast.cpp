@@ -184,7 +184,7 @@ std::vector<CastMember> choose_cast(const CastOptions& options, const DesignTabl
     const auto places = places_of(options, tables, draw);
     const bool balanced_age =
         std::find(options.balance.begin(), options.balance.end(), "age") != options.balance.end();
-    const HeadModel average = make_head(tables);
+    const HeadModel average = make_form(tables);
     std::vector<CastMember> cast;
     for (int k = 0; k < options.count; ++k) {
         const PersonChoice& place = places[static_cast<std::size_t>(k) % places.size()];
@@ -228,7 +228,7 @@ std::string cast_table(const std::vector<CastMember>& cast, const DesignTables& 
         text += "\t" + name + "_mm";
     }
     text += "\n";
-    const HeadModel average = make_head(tables);
+    const HeadModel average = make_form(tables);
     for (const CastMember& member : cast) {
         const Identity& who = member.identity;
         text += who.name + "\t" + (who.sex < 0 ? "female" : "male") + "\t" +

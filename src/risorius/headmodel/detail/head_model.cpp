@@ -88,7 +88,9 @@ std::vector<Vec3> vertex_normals(const geom::PolygonMesh& mesh) {
 
 }  // namespace
 
-HeadModel make_head(const DesignTables& tables) {
+namespace {
+
+HeadModel made(const DesignTables& tables, bool laid_out) {
     const Globe globe;
     const HeadSurface surface(tables);
     const Skin skin = make_skin(tables, surface, globe);
@@ -108,8 +110,9 @@ HeadModel make_head(const DesignTables& tables) {
     append(model.mesh, lashes(skin, globe, 1, "lashes_l"));
     append(model.mesh, lashes(skin, globe, -1, "lashes_r"));
     model.crown_height.resize(static_cast<std::size_t>(model.mesh.vertex_count()), 0);
-    lay_out(skin.mesh, tables.landmarks.at("v").z(), skin.upper_margin, skin.lower_margin,
-            model.mesh);
+    if (laid_out)
+        lay_out(skin.mesh, tables.landmarks.at("v").z(), skin.upper_margin, skin.lower_margin,
+                model.mesh);
     // Both halves have their faces in the same order.
     for (const bool mirror : {false, true})
         for (std::size_t f = 0; f < skin.mesh.face.size(); ++f)
@@ -118,6 +121,11 @@ HeadModel make_head(const DesignTables& tables) {
     model.landmarks = name_landmarks(skin, tables);
     return model;
 }
+
+}  // namespace
+
+HeadModel make_head(const DesignTables& tables) { return made(tables, true); }
+HeadModel make_form(const DesignTables& tables) { return made(tables, false); }
 
 void write_head(const HeadModel& model, const std::filesystem::path& folder,
                 const std::string& library) {

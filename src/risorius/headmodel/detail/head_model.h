@@ -17,6 +17,8 @@ struct HeadModel {
 };
 
 HeadModel make_head(const DesignTables& tables);
+/// The same without texture coordinates, which take most of the time.
+HeadModel make_form(const DesignTables& tables);
 
 /// Writes an OBJ with groups and texture coordinates, to a micrometre, and next to it the landmarks and the regions as ranges of faces. With
 /// the name of a material library (which is not written), each group has the material of its name, and vertices have normals.
