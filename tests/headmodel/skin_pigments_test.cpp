@@ -115,6 +115,8 @@ TEST(SkinPigments, SurviveAFileAndRefuseTwoTones) {
               file.string() + ":/haemoglobin: expected melanin beside it, found none");
     EXPECT_EQ(message_of([&] { read(R"("melanin": 1.5)"); }),
               file.string() + ":/melanin: expected [0, 1], found 1.5");
+    EXPECT_EQ(message_of([&] { read(R"("garment_tone": [0.1, 1.5, 0.2])"); }),
+              file.string() + ":/garment_tone: expected red, green and blue in [0, 1], found 1.5");
     EXPECT_EQ(message_of([&] { read(R"("skin_gloss": 3)"); }),
               file.string() + ":/skin_gloss: expected [0, 2], found 3");
 }

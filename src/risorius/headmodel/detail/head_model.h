@@ -17,7 +17,7 @@ struct HeadModel {
 };
 
 HeadModel make_head(const DesignTables& tables);
-/// The same without texture coordinates, which take most of the time.
+/// The same without texture coordinates, which only files need.
 HeadModel make_form(const DesignTables& tables);
 
 /// Writes an OBJ with groups and texture coordinates, to a micrometre, and next to it the landmarks and the regions as ranges of faces. With

@@ -41,10 +41,10 @@ void check_identity_hair(const IdentityHair& hair,
     index_of_name(place("hair_style"), hair.style, render::hair_style_names());
     index_of_name(place("hairline_form"), hair.hairline_form, render::hairline_form_names());
     index_of_name(place("garment"), hair.garment, render::garment_names());
-    const double darkest = hair.garment_tone.minCoeff(), lightest = hair.garment_tone.maxCoeff();
-    if (!(darkest >= 0 && lightest <= 1))
-        throw Error(place("garment_tone"), "red, green and blue in [0, 1]",
-                    format_number(darkest < 0 ? darkest : lightest));
+    for (const double part : hair.garment_tone)
+        if (!(part >= 0 && part <= 1))
+            throw Error(place("garment_tone"), "red, green and blue in [0, 1]",
+                        format_number(part));
     index_of_name(place("beard_form"), hair.beard_form, render::beard_form_names());
     for (const auto& [key, value] :
          {std::pair{"grey_hair", hair.grey}, std::pair{"age_lines", hair.age_lines}})

@@ -110,7 +110,7 @@ Melanin melanin_of(const std::string& ancestry) {
 }
 
 /// The tone of the skin by its pigments, and how much it shines: less with the years (Pochi et al. 1979). It has a sequence of its
-/// own. All wear the same shirt.
+/// own.
 void draw_skin(unsigned seed, const std::string& ancestry, Identity& person) {
     Draw draw(seed + kSkinSequence);
     const auto normal = [&] { return std::clamp(draw.normal(), -2.0, 2.0); };
@@ -119,7 +119,6 @@ void draw_skin(unsigned seed, const std::string& ancestry, Identity& person) {
     person.haemoglobin = to_hundredths(std::clamp(normal(), -1.5, 1.5));
     const double dry = 1 - 0.3 * std::clamp((person.age - 40) / 40, 0.0, 1.0);
     person.hairdo.skin_gloss = to_hundredths(dry * (0.75 + 0.15 * normal()));
-    person.hairdo.garment = "crew_neck";
 }
 
 }  // namespace
@@ -165,6 +164,7 @@ Identity random_person(unsigned seed, const PersonChoice& choice, const DesignTa
     draw_colours(draw, ancestry, person);
     draw_hair(seed, ancestry, tables, person);
     draw_skin(seed, ancestry, person);
+    person.hairdo.garment = "crew_neck";  // all wear the same
     return person;
 }
 

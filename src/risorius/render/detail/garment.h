@@ -33,7 +33,7 @@ struct GarmentVertex {
     double share = 0;              ///< of the second
     double off_m = 0;              ///< from the skin
     double below_m = 0;            ///< from the border of the cloth
-    double around = 0;             ///< rad about the neck, 0 in front
+    double around = 0;             ///< rad about the upright axis of the head, 0 in front
 };
 
 struct Garment {
