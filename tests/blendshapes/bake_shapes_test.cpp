@@ -16,6 +16,7 @@
 #include "risorius/blendshapes/detail/shape_weights.h"
 #include "risorius/blendshapes/shape_player.h"
 #include "risorius/core/error.h"
+#include "risorius/core/sha256.h"
 #include "risorius/face/surfaces.h"
 #include "risorius/inverse/evaluate.h"
 #include "risorius/inverse/solve_activations.h"
@@ -307,8 +308,14 @@ TEST_F(BakedShapes, PlayWhatDrivesThem) {
     options.script = fs::path(RISORIUS_SOURCE_DIR) / "samples/hello/script.json";
     options.out = folder().path() / "linear.mp4";
     options.shapes = file;
-    EXPECT_NO_THROW(animate::plan_render_job(options));
+    const animate::RenderJob planned = animate::plan_render_job(options);
+    ASSERT_TRUE(planned.shapes.has_value());
+    EXPECT_EQ(planned.shapes->content->goals.size(), 4u);  // read once, for the run too
+    EXPECT_EQ(planned.shapes->file.sha256, sha256_of_file(file));
     options.show = "muscles";
+    EXPECT_THROW(animate::plan_render_job(options), Error);
+    options.show.reset();
+    options.shapes = files.rig.mesh_file;
     EXPECT_THROW(animate::plan_render_job(options), Error);
 }
 

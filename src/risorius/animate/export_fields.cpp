@@ -251,7 +251,7 @@ Json export_fields(const ExportOptions& options, const ProgressMonitor& monitor)
     record["toolkit"] = toolkit_record();
     record["script"] = job.script_file.path.generic_string();
     record["rig"] = job.rig->rig.path.generic_string();
-    record["quality"] = job.quality;
+    record["quality"] = job.quality.name;
     record["encoding"] = options.encoding;
     record["frames"] = job.frames;
     record["times_s"] = Json::array();

@@ -17,6 +17,7 @@
 #include "risorius/media/sync_marks.h"
 #include "risorius/report/output_paths.h"
 #include "risorius/report/stopwatch.h"
+#include "risorius/rig/head.h"
 #include "risorius/rig/rig_description.h"
 #include "risorius/talk/say_event.h"
 
@@ -281,6 +282,15 @@ ScriptInput script_input(const RenderRequest& request, RenderInputs& inputs) {
     return *inputs.script(request.script);
 }
 
+/// The blend shapes, checked against the vertices of the rig's mesh.
+ShapesInput shapes_input(const fs::path& file, const scene::RigFiles& files) {
+    const rig::Head head = rig::place_head(files.rig, files.mesh, files.place());
+    ReadChecksums sums;
+    auto content = std::make_shared<const blendshapes::ShapesOfFile>(
+        blendshapes::read_shapes_of_file(file, files, head));
+    return {sums.of(file), std::move(content)};
+}
+
 /// Reads the rig, and checks the script and the script to compare with against it.
 void plan_rig_and_script(const RenderRequest& request, const JsonCursor& script,
                          RenderInputs& inputs, RenderJob& job) {
@@ -305,7 +315,7 @@ void plan_rig_and_script(const RenderRequest& request, const JsonCursor& script,
                                               job.rig->files, inputs.mouth_poses()),
                             *job.reference);
     }
-    if (request.shapes) job.shapes = {*request.shapes, sha256_of_file(*request.shapes)};
+    if (request.shapes) job.shapes = shapes_input(*request.shapes, job.rig->files);
 }
 
 }  // namespace
@@ -328,7 +338,7 @@ RenderJob plan_render_job(const RenderRequest& request, RenderInputs& inputs) {
     if (!request.rig) existing_file(script.json.at("rig"));
 
     // Fast checks come first.
-    job.quality = face::quality_named(quality_of(request)).name;
+    job.quality = face::quality_named(quality_of(request));
     plan_rate(request, job);
     plan_view(request, job);
     check_show(request, job);

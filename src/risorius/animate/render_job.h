@@ -10,12 +10,20 @@
 
 #include "risorius/animate/render_inputs.h"
 #include "risorius/animate/render_request.h"
+#include "risorius/blendshapes/shape_player.h"
+#include "risorius/face/quality.h"
 #include "risorius/media/video_writer.h"
 #include "risorius/render/offscreen_view.h"
 #include "risorius/talk/say_event.h"
 #include "risorius/track/script.h"
 
 namespace risorius::animate {
+
+/// Blend shapes that play the script instead of the simulation.
+struct ShapesInput {
+    InputFile file;
+    std::shared_ptr<const blendshapes::ShapesOfFile> content;
+};
 
 /// A complete plan of one render.
 struct RenderJob {
@@ -25,8 +33,8 @@ struct RenderJob {
     track::ScriptDescription script;
     std::shared_ptr<const RigInput> rig;
     std::vector<InputFile> recordings;  ///< recordings that the script names
-    std::optional<InputFile> shapes;    ///< blend shapes that play the script
-    talk::PlannedSpeech speech;         ///< what the events "say" of the script make
+    std::optional<ShapesInput> shapes;
+    talk::PlannedSpeech speech;  ///< what the events "say" of the script make
     /// The script to compare with when "error" is shown
     std::optional<track::ScriptDescription> reference;
 
@@ -52,7 +60,7 @@ struct RenderJob {
     }
 
     // Simulation and view
-    std::string quality;  ///< a name of face::quality_named()
+    face::Quality quality;
     render::ViewOptions view;
     std::optional<double> scale;  ///< end of the colour scale of strain (ratio) or error (mm)
     SyncMarks marks;
@@ -73,8 +81,8 @@ struct RenderJob {
 };
 
 /// Reads every input once, checks it and the request, and rejects what would otherwise fail after minutes of rendering. Only the
-/// blend shapes and the folder of passes are opened later, because they need the face. Throws Error; the message names the
-/// option, or the file and the place in it.
+/// folder of passes is opened later, because it needs the face. Throws Error; the message names the option, or the file and the
+/// place in it.
 RenderJob plan_render_job(const RenderRequest& request);
 
 /// Does the same with `inputs` that several jobs share, so that each file is read once.

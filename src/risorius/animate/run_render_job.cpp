@@ -12,7 +12,6 @@
 #include "risorius/animate/detail/frame_table.h"
 #include "risorius/animate/detail/marked_pictures.h"
 #include "risorius/animate/detail/pipeline.h"
-#include "risorius/animate/detail/read_checksums.h"
 #include "risorius/animate/detail/ready_face.h"
 #include "risorius/animate/detail/reference_run.h"
 #include "risorius/blendshapes/shape_player.h"
@@ -60,7 +59,7 @@ RunRecord describe(const RenderJob& job, const face::Face& face) {
     record.recordings = job.recordings;
     record.rig = job.rig->rig;
     record.mesh = job.rig->mesh;
-    record.shapes = job.shapes;
+    if (job.shapes) record.shapes = job.shapes->file;
     record.tables = job.rig->tables;
     record.out = job.out;
     record.seed = job.script.header.seed;
@@ -76,7 +75,8 @@ RunRecord describe(const RenderJob& job, const face::Face& face) {
         record.scale_to = scene::Visualization::scale_end(job.view.show, job.scale);
     record.show = render::show_names()[static_cast<std::size_t>(job.view.show)];
     record.background = job.background_text();
-    record.quality = job.quality;
+    record.quality = job.quality.name;
+    record.step_s = job.quality.step_s;
     record.antialiasing = job.view.supersampling;
     record.graphics = render::gl_in_use();
     record.jaw = job.script.header.jaw == track::JawDrive::kMuscles ? "muscles" : "channels";
@@ -109,12 +109,7 @@ face::FacePose turned(face::FacePose pose, double angle_rad) {
 std::optional<blendshapes::ShapePlayer> player_of(const RenderJob& job, face::Face& face,
                                                   const track::ChannelTable& channels) {
     if (!job.shapes) return {};
-    ReadChecksums sums;
-    blendshapes::ShapesOfFile shapes =
-        blendshapes::read_shapes_of_file(job.shapes->path, job.rig->files, face.head());
-    if (sums.of(job.shapes->path).sha256 != job.shapes->sha256)
-        throw RunError(job.shapes->path.string() + ": the file changed while it was read");
-    return std::optional<blendshapes::ShapePlayer>(std::in_place, std::move(shapes), face,
+    return std::optional<blendshapes::ShapePlayer>(std::in_place, *job.shapes->content, face,
                                                    channels);
 }
 

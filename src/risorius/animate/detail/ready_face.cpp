@@ -5,7 +5,7 @@ namespace risorius::animate {
 
 face::Face& ready_face(const RenderJob& job, RenderSession& session) {
     const track::ScriptHeader& header = job.script.header;
-    face::Face& face = session.face(job.rig, face::quality_named(job.quality));
+    face::Face& face = session.face(job.rig, job.quality);
     face.drive_jaw_by(header.jaw);
     face.set_gravity(header.gravity_m_s2);
     face.move(header.motion == track::Motion::kDynamic ? face::Motion::kDynamic

@@ -13,9 +13,9 @@ struct ReferenceRun::Impl {
     bool started = false;
 
     Impl(const track::ScriptDescription& script, const scene::RigFiles& files,
-         const std::string& quality)
+         const face::Quality& quality)
         : channels(files.rig.channels()),
-          face(files.rig, files.mesh, face::quality_named(quality), files.place()),
+          face(files.rig, files.mesh, quality, files.place()),
           timeline(script, channels) {
         face.drive_jaw_by(script.header.jaw);
         face.set_gravity(script.header.gravity_m_s2);
@@ -24,7 +24,7 @@ struct ReferenceRun::Impl {
 };
 
 ReferenceRun::ReferenceRun(const track::ScriptDescription& script, const scene::RigFiles& files,
-                           const std::string& quality)
+                           const face::Quality& quality)
     : impl_(std::make_unique<Impl>(script, files, quality)) {}
 
 ReferenceRun::~ReferenceRun() = default;

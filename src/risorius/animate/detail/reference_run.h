@@ -4,9 +4,9 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "risorius/core/types.h"
+#include "risorius/face/quality.h"
 #include "risorius/scene/rig_files.h"
 #include "risorius/track/script.h"
 
@@ -16,7 +16,7 @@ class ReferenceRun {
   public:
     /// Builds a face of its own. `files` must outlive this object.
     ReferenceRun(const track::ScriptDescription& script, const scene::RigFiles& files,
-                 const std::string& quality);
+                 const face::Quality& quality);
     ~ReferenceRun();
 
     /// Positions of the vertices at a time, V x 3, m. Times must ascend from call to call.

@@ -6,7 +6,6 @@
 
 #include "risorius/core/json_object.h"
 #include "risorius/core/toolkit_record.h"
-#include "risorius/face/quality.h"
 
 namespace risorius::animate {
 
@@ -67,7 +66,7 @@ Json RunRecord::json() const {
     json["jaw"] = json_object({{"moved_by", jaw},
                                {"widest_opening_mm", max_jaw_opening_mm},
                                {"greatest_tooth_force_n", max_tooth_force_n}});
-    json["step_s"] = face::quality_named(quality).step_s;
+    json["step_s"] = step_s;
     json["face"] = json_object(
         {{"nodes", nodes}, {"tets", tets}, {"dropped_tets", dropped_tets}, {"fibres", fibres}});
     json["solver"] = json_object({{"steps", solver.steps},

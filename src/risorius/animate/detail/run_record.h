@@ -56,6 +56,7 @@ struct RunRecord {
     int shutter_moments = 1;  ///< number of moments that are averaged per frame
     std::string graphics;     ///< render::gl_in_use()
     std::string quality;
+    double step_s = 0;              ///< of the simulation, s
     int antialiasing = 2;           ///< samples per pixel and side
     std::string jaw;                ///< what moves the jaw: "channels" or "muscles"
     double max_jaw_opening_mm = 0;  ///< between the incisors, over all frames

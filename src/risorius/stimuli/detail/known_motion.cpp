@@ -21,7 +21,7 @@ std::string key_of(const char* computation, const animate::RenderJob& job,
     for (const animate::InputFile& table : job.rig->tables) key.add(table.sha256);
     key.add(job.recordings.size());
     for (const animate::InputFile& recording : job.recordings) key.add(recording.sha256);
-    key.add(job.quality).add(job.fps).add(job.frames).add(job.times_s).add(job.first_frame_s);
+    key.add(job.quality.name).add(job.fps).add(job.frames).add(job.times_s).add(job.first_frame_s);
     key.add(job.flipped_motion);
     return key.finish();
 }
