@@ -23,6 +23,7 @@
 #include "risorius/report/stopwatch.h"
 #include "risorius/scene/rig_files.h"
 #include "risorius/track/timeline.h"
+#include "tools/bench/bench_growth.h"
 #include "tools/bench/bench_pictures.h"
 #include "tools/bench/bench_poses.h"
 #include "tools/bench/bench_shapes.h"
@@ -290,6 +291,14 @@ Json bench_machine(const BenchOptions& options, const ProgressMonitor& monitor) 
                            rigs[i].string() + ", random drive");
             out["stress"].push_back(stress_rig(rigs[i], options));
         }
+        return out;
+    }
+
+    if (options.only_growth) {
+        const ScratchFolder scratch;
+        out["growth"] =
+            bench_growth(scene::read_rig_files(rigs.front()), scratch.path(), {}, monitor);
+        if (!options.growth_chart.empty()) draw_growth(out["growth"], options.growth_chart);
         return out;
     }
 

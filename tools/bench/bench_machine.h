@@ -23,6 +23,10 @@ struct BenchOptions {
     bool only_poses = false;
     bool only_pictures = false;  ///< measure only pictures (bench_pictures.h)
     bool only_shapes = false;    ///< measure only blend shapes (bench_shapes.h)
+    /// Measure only how cost grows with work (bench_growth.h), with the first rig
+    bool only_growth = false;
+    /// Folder for a chart of only_growth; empty: no chart
+    std::filesystem::path growth_chart = {};
     /// File for only_shapes; empty: linear versions of the ARKit shapes
     std::filesystem::path shapes = {};
 };

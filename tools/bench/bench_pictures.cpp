@@ -48,7 +48,7 @@ Json stages(const animate::RenderJob& job) {
     const track::ChannelTable channels = files.rig.channels();
     const track::Timeline timeline(job.script, channels);
     const auto drive = [&](double t_s) { return timeline.at(t_s); };
-    face::Face face(files.rig, files.mesh, face::quality_named(job.quality), files.place());
+    face::Face face(files.rig, files.mesh, job.quality, files.place());
     render::Scene scene = scene::scene_from_rig(face.head(), files.rig, files.mesh);
     scene::add_wrinkles(face.surfaces().wrinkle_lines(), scene);
     render::OffscreenView view(scene, job.view);

@@ -23,6 +23,9 @@ inline constexpr double kStepTrack_s = 4.0;
 /// The track, for a rig with the standard action units.
 track::ScriptDescription step_track(const scene::RigFiles& files);
 
+/// "preview" on a shell of another size. Finer shells reach the same error with one iteration less.
+face::Quality preview_with(int skin_vertices);
+
 struct StepBench {
     face::Quality quality;
     int steps = 240;  ///< number of steps from the start of the track

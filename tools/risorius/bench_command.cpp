@@ -3,10 +3,13 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "risorius/core/data_folder.h"
+#include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/output_paths.h"
 #include "tools/bench/bench_machine.h"
+#include "tools/bench/machine_page.h"
 #include "tools/risorius/commands.h"
 
 namespace risorius::cli {
@@ -18,6 +21,9 @@ struct BenchArguments {
     bench::BenchOptions options;
     std::filesystem::path out;
     bool only_solids = false;
+    std::filesystem::path csv;
+    std::string month;
+    bool tables = false;
 };
 
 void print_solids(const Json& report) {
@@ -114,11 +120,32 @@ void print_shapes(const Json& one) {
         one["slowest_frame_ms"].get<double>());
 }
 
+void print_growth(const Json& growth) {
+    std::printf(
+        "  processor time of all threads, and most memory; exponent e: as (size / size "
+        "before)^e\n");
+    for (const Json& one : growth) {
+        std::printf("  %s\n", one["series"].get<std::string>().c_str());
+        for (std::size_t i = 0; i < one["cases"].size(); ++i) {
+            const Json& at = one["cases"][i];
+            std::printf("    %8.0f %-8s %10.4f s %7.0f MB", at["size"].get<double>(),
+                        one["size"].get<std::string>().c_str(), at["seconds"].get<double>(),
+                        at["megabytes"].get<double>());
+            if (i > 0) std::printf("  e = %.2f", one["exponents"][i - 1].get<double>());
+            std::printf("\n");
+        }
+    }
+}
+
 void print(const Json& report) {
     std::printf("%s, %d cores\n", report["machine"]["cpu"].get<std::string>().c_str(),
                 report["machine"]["cores"].get<int>());
     if (report.contains("stress")) {
         for (const Json& one : report["stress"]) print_stress(one);
+        return;
+    }
+    if (report.contains("growth")) {
+        print_growth(report["growth"]);
         return;
     }
     for (const Json& solids : report["solids"]) print_solids(solids);
@@ -140,7 +167,27 @@ void print(const Json& report) {
     }
 }
 
+/// One page when everything was measured; else, or when they are asked for, the tables.
+void show(const Json& report, bool tables) {
+    const std::string page = bench::machine_page(
+        report, bench::read_known_machines(data_folder() / "docs/performance/benchmarks"));
+    std::printf("%s", page.c_str());
+    if (page.empty() || tables) print(report);
+}
+
+void check_month(const std::string& month) {
+    const auto digit = [&](std::size_t i) { return month[i] >= '0' && month[i] <= '9'; };
+    if (month.size() != 7 || !digit(0) || !digit(1) || !digit(2) || !digit(3) || month[4] != '-' ||
+        !digit(5) || !digit(6))
+        throw Error(option_name("month"), "a month, for instance 2026-11", "\"" + month + "\"");
+}
+
 void run(const BenchArguments& arguments) {
+    if (!arguments.csv.empty()) {
+        check_month(arguments.month);
+        if (std::filesystem::exists(arguments.csv))
+            throw Error(arguments.csv.string(), "no file", "one");
+    }
     if (!arguments.out.empty())
         report::check_overwritten(arguments.out, {"risorius-bench"},
                                   "no file, or an earlier report");
@@ -153,10 +200,12 @@ void run(const BenchArguments& arguments) {
     }
     const std::string text = json_text(report, 2) + "\n";
     if (!arguments.out.empty()) report::write_text(arguments.out, text);
+    if (!arguments.csv.empty())
+        report::write_text(arguments.csv, bench::benchmark_file(report, arguments.month));
     if (arguments.common.json)
         std::printf("%s", text.c_str());
     else if (!arguments.common.quiet)
-        print(report);
+        show(report, arguments.tables);
 }
 
 }  // namespace
@@ -203,6 +252,22 @@ void add_bench(CLI::App& app) {
         ->excludes("--poses")
         ->excludes("--pictures");
     command
+        ->add_option_function<std::string>(
+            "--growth",
+            [arguments](const std::string& folder) {
+                arguments->options.only_growth = true;
+                arguments->options.growth_chart = folder;
+            },
+            "Measure only how processor time and memory grow with nodes, vertices, frames, clips "
+            "and threads; takes minutes. With a folder, a chart is written there")
+        ->expected(0, 1)
+        ->type_name("[FOLDER]")
+        ->excludes("--solids")
+        ->excludes("--steps")
+        ->excludes("--poses")
+        ->excludes("--pictures")
+        ->excludes("--shapes");
+    command
         ->add_option("--stress", arguments->options.stress_steps,
                      "Only move the face at random for this many steps; report inverted tetrahedra "
                      "and penetration")
@@ -214,6 +279,22 @@ void add_bench(CLI::App& app) {
         ->check(CLI::IsMember({"preview", "video", "fine"}))
         ->needs("--stress");
     command->add_option("-o,--out", arguments->out, "The report to write, JSON");
+    command
+        ->add_option("--csv", arguments->csv,
+                     "A benchmark file to write, for the table of known machines; a complete run "
+                     "measures what it holds")
+        ->excludes("--solids")
+        ->excludes("--steps")
+        ->excludes("--poses")
+        ->excludes("--pictures")
+        ->excludes("--shapes")
+        ->excludes("--growth")
+        ->excludes("--stress");
+    command->add_option("--month", arguments->month, "The month in --csv, for instance 2026-11")
+        ->needs("--csv");
+    command->get_option("--csv")->needs("--month");
+    command->add_flag("--tables", arguments->tables,
+                      "Print all that was measured, not only the page about this machine");
     add_common(*command, arguments->common);
     command->footer("Example:\n  risorius bench --rig rigs/adult/rig.json -o bench.json");
     command->callback([arguments] { run(*arguments); });
