@@ -42,6 +42,16 @@ Json script_of(const fs::path& rig) {
     return script;
 }
 
+// Mean CPU time of the passes of a picture, ms.
+Json passes_of(render::OffscreenView& view, const render::Pose& pose) {
+    constexpr int kPictures = 10;
+    view.time_passes();
+    for (int k = 0; k < kPictures; ++k) view.draw(pose);
+    Json out = Json::object();
+    for (const auto& [name, seconds] : view.passes_s()) out[name] = 1e3 * seconds / kPictures;
+    return out;
+}
+
 // Runs the stages of a job one after another, to time each separately.
 Json stages(const animate::RenderJob& job) {
     const scene::RigFiles& files = job.rig->files;
@@ -75,6 +85,7 @@ Json stages(const animate::RenderJob& job) {
         hash.add(images.back().rgba.data(), images.back().rgba.size());
         measure.push_back(ms(measuring));
     }
+    const Json passes = passes_of(view, scene::pose_for_view(face.pose()));
     const report::ProcessStopwatch encoding;
     media::VideoWriter video(job.out, job.video);
     for (int frame = 0; frame < job.frames; ++frame)
@@ -84,7 +95,8 @@ Json stages(const animate::RenderJob& job) {
                         {"draw_ms", report::median(draw)},
                         {"read_back_ms", report::median(read_back)},
                         {"measure_ms", report::median(measure)},
-                        {"encode_ms", ms(encoding) / job.frames}});
+                        {"encode_ms", ms(encoding) / job.frames},
+                        {"passes_ms", passes}});
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace risorius::bench {
 /// Renders two seconds at 30 frames per second: a smile, surprise, a blink and idle motion. Returns for each size, with and
 /// without draft: `fps`, frames per second of wall time on all cores, measured after all threads have drawn once; and medians of
 /// the CPU time per frame over all threads, ms: `simulate_ms`, `draw_ms`, `read_back_ms` (from samples to pixels in memory),
-/// `measure_ms` (luminance and hash) and `encode_ms` (a mean). Temporary files are written to the folder.
+/// `measure_ms` (luminance and hash) and `encode_ms` (a mean); and `passes_ms`, the mean CPU time of each pass of the drawing. Temporary files are written to the folder.
 Json bench_pictures(const scene::RigFiles& files, const std::filesystem::path& folder,
                     const ProgressMonitor& monitor);
 

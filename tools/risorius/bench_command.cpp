@@ -109,6 +109,14 @@ void print_pictures(const Json& cases) {
                     one["simulate_ms"].get<double>(), one["draw_ms"].get<double>(),
                     one["read_back_ms"].get<double>(), one["measure_ms"].get<double>(),
                     one["encode_ms"].get<double>());
+    std::printf("  passes of the drawing, ms of processor time:\n");
+    for (const Json& one : cases) {
+        std::printf("    %4d x %-4d %-6s", one["width_px"].get<int>(), one["height_px"].get<int>(),
+                    one["draft"].get<bool>() ? "draft" : "");
+        for (const auto& [name, ms] : one["passes_ms"].items())
+            std::printf("  %s %.1f", name.c_str(), ms.get<double>());
+        std::printf("\n");
+    }
 }
 
 void print_shapes(const Json& one) {

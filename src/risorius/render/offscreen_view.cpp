@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <ctime>
 #include <map>
 #include <numbers>
 
@@ -23,11 +22,13 @@
 #include "risorius/render/detail/occlusion.h"
 #include "risorius/render/detail/own_textures.h"
 #include "risorius/render/detail/part_texture.h"
+#include "risorius/render/detail/pass_clock.h"
 #include "risorius/render/detail/posed_marks.h"
 #include "risorius/render/detail/resolve.h"
 #include "risorius/render/detail/scene_buffers.h"
 #include "risorius/render/detail/shaders.h"
 #include "risorius/render/detail/shell_layer.h"
+#include "risorius/render/detail/skin_box.h"
 #include "risorius/render/detail/skin_layer.h"
 #include "risorius/render/detail/skin_paint.h"
 #include "risorius/render/detail/skin_texture.h"
@@ -51,29 +52,6 @@ ViewOptions checked(ViewOptions options) {
     check_range("supersampling", options.supersampling, 1, kMaxSupersampling);
     check_range("threads", options.threads, 0, 256);
     return options;
-}
-
-/// For reports only.
-double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-struct Box {
-    Vec3 min = Vec3::Constant(1e9), max = Vec3::Constant(-1e9);
-};
-
-Box skin_box(const Scene& scene) {
-    Box box;
-    for (const Surface& surface : scene.surfaces) {
-        if (surface.material != Material::kSkin) continue;
-        for (Eigen::Index i = 0; i < surface.triangles.size(); ++i) {
-            const int v = surface.triangles.data()[i];
-            if (v < 0 || v >= scene.rest.rows())
-                continue;  // SceneBuffers reports it with its place
-            box.min = box.min.cwiseMin(scene.rest.row(v).transpose());
-            box.max = box.max.cwiseMax(scene.rest.row(v).transpose());
-        }
-    }
-    if (box.min.x() > box.max.x()) throw Error("scene/surfaces", "a skin surface", "none");
-    return box;
 }
 
 std::vector<float> colours_of(const SkinValues& values) {
@@ -106,7 +84,7 @@ struct OffscreenView::Impl {
     Impl(const Scene& scene, const ViewOptions& view_options, const Impl* first)
         : options(checked(view_options)),
           appearance(scene.appearance),
-          box(skin_box(scene)),
+          box(box_of_skin(scene)),
           camera(make_camera(options.camera, scene.landmarks, box.min, box.max,
                              static_cast<double>(options.width_px) / options.height_px,
                              options.lens)),
@@ -256,12 +234,14 @@ struct OffscreenView::Impl {
         }
         materials->done();
         if (!pose.values && !looked_up) worn->draw();
+        clock.passed("surfaces");
         sockets->draw();
         buffers->bind();
         shells->draw();
         tears->draw();
         hair->draw();
         buffers->bind();
+        clock.passed("thin parts");
     }
 
     void draw_tile(const Tile& tile, const Mat4& clip_from_world, const Pose& pose,
@@ -280,6 +260,7 @@ struct OffscreenView::Impl {
             buffers->bind();
             for (const Batch& batch : buffers->batches())
                 if (batch.material == Material::kSkin) materials->draw_skin(batch, *buffers);
+            clock.passed("skin");
             cells.begin(tile.width, tile.height);
             buffers->leave_out_unseen(*skin_layer, cells, [&](PictureCells& marked) {
                 if (!shells->empty()) marked.mark_all();
@@ -288,6 +269,7 @@ struct OffscreenView::Impl {
                 tears->mark(clip, marked);
                 sockets->mark(clip, marked);
             });
+            clock.passed("choice");
         }
         picture.set_viewport(tile);
         if (muscles) {
@@ -296,6 +278,7 @@ struct OffscreenView::Impl {
         }
         glEnable(GL_DEPTH_TEST);
         if (looked_up) look_up_skin(tile);
+        clock.passed("look up");
         target->bind();
         if (!looked_up) {
             glClearColor(0, 0, 0, 0);
@@ -316,11 +299,12 @@ struct OffscreenView::Impl {
         else
             picture.read_back(tile, resolve, image);
         read_back_s += processor_s() - drawn_s;
+        clock.passed("reading back");
     }
 
     ViewOptions options;
     Appearance appearance;
-    Box box;
+    SkinBox box;
     Camera camera;
     std::vector<Mat4> views;  ///< one per point of the lens aperture
     PosedMarks marks;
@@ -348,6 +332,7 @@ struct OffscreenView::Impl {
     std::optional<SkyAboutEyes> sky_about_eyes;
     GLuint frame_buffer = 0;
     double read_back_s = 0;
+    PassClock clock;
 };
 
 OffscreenView::OffscreenView(const Scene& scene, const ViewOptions& options)
@@ -373,6 +358,7 @@ Image OffscreenView::draw(const Pose& pose) {
 
     // Uploads of the pose
     view.read_back_s = 0;
+    view.clock.begin();
     view.buffers->bind();
     view.buffers->upload(pose.positions, pose.fold_depth);
     if (auto& sky = view.sky_about_eyes)
@@ -387,11 +373,14 @@ Image OffscreenView::draw(const Pose& pose) {
     view.tears->upload(pose, view.marks);
     view.sockets->upload(pose, view.marks);
 
+    view.clock.passed("pose");
+
     // Shadow of the key light
     FrameUniforms frame = view.lights->uniforms(view.marks.mouth_gap(pose));
     const Eigen::Matrix4f seen = view.views.front().cast<float>();
     view.lights->draw_shadow(*view.buffers, view.views.size() == 1 ? &seen : nullptr,
                              pose.values ? nullptr : &view.worn->locks());
+    view.clock.passed("shadow");
     glActiveTexture(GL_TEXTURE0 + kPaintUnit);
     glBindTexture(GL_TEXTURE_2D, view.baked->paint_map);
     glActiveTexture(GL_TEXTURE0 + kPoreUnit);
@@ -487,6 +476,10 @@ Image OffscreenView::draw(const std::vector<Pose>& poses) {
 }
 
 double OffscreenView::read_back_s() const { return impl_->read_back_s; }
+void OffscreenView::time_passes() { impl_->clock.turn_on(); }
+const std::vector<std::pair<std::string, double>>& OffscreenView::passes_s() const {
+    return impl_->clock.times();
+}
 
 Vec2 OffscreenView::project(const Vec3& world) const {
     const Eigen::Vector4d clip = impl_->camera.clip_from_world * world.homogeneous();

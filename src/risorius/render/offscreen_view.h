@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "risorius/core/image.h"
@@ -109,6 +110,11 @@ class OffscreenView {
     /// Returns the CPU time in seconds that the process spent on reading back the last picture: from the end of the drawing until
     /// the picture was in memory.
     double read_back_s() const;
+
+    /// From now on the CPU time of each pass of each picture is added up. Pictures take longer then.
+    void time_passes();
+    /// Names of the passes in the order of drawing, and their CPU time in all pictures since time_passes(), s.
+    const std::vector<std::pair<std::string, double>>& passes_s() const;
 
     /// Returns the position of a world point in the picture, px: x to the right and y down from the top left corner.
     Vec2 project(const Vec3& world) const;
