@@ -178,7 +178,9 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
         // Off the head, and not far from the hull
         const Vec3 now = (p - centre).normalized();
         const double rise = tuft ? 1 : ramp(0, 0.022, passed + kStep_m);
-        const double skin = skin_m(now), least = skin + kAboveSkin_m + (cap_m(now) + layer) * rise,
+        const double skin = skin_m(now),
+                     least = skin + kAboveSkin_m +
+                             (std::max(cap_m(now) - 1e-3 * style_.sunk_mm, 0.0) + layer) * rise,
                      most = least + loft + (p.y() < loose_m ? 0.05 : 0.0);
         const double r = (p - centre).norm();
         const double kept = skin > 0 ? std::clamp(r, least, most) : r;

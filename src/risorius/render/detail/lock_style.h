@@ -32,6 +32,8 @@ struct LockStyle {
     double cap_mm = 2;     ///< thickness of the cap under the locks
     double layers_mm = 2;  ///< the outermost lock lies this far above the innermost
     double loft_mm = 2;    ///< how far a lock may stand off its layer
+    double sunk_mm =
+        0;  ///< how deep the sides of a lock lie in the cap, so that only its ridge is seen
     double fray_mm = 0;   ///< length of the pointed strands in which a lock ends; 0: it ends in one
     double tip = 0.08;    ///< width of the tip, as a share
     double curl_mm = 0;   ///< radius

@@ -23,7 +23,7 @@ double soft_step(double from, double to, double x) {
 
 /// Half the width of a lock, as a share, from the root (0) to the tip (1).
 double taper(double s, bool edge, double tip) {
-    const double root = edge ? 0.12 : 0.25;
+    const double root = edge ? 0.06 : 0.10;
     return (root + (1 - root) * soft_step(0, 0.22, s)) * (1 - (1 - tip) * soft_step(0.5, 1.0, s));
 }
 
@@ -112,7 +112,7 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
 }
 
 /// Rows of the cap from the whorl outwards, columns around it.
-constexpr int kCapRows = 10, kCapColumns = 54;
+constexpr int kCapRows = 16, kCapColumns = 120;
 
 /// Marks the skin inside the border of the cap, which reaches so far from the whorl in each column, rad.
 void cover_skin(const LockGround& ground, const Scene& scene, const Vec3& ahead, const Vec3& right,
@@ -152,6 +152,9 @@ void add_cap(const LockGround& ground, const LockStyle& style, const Scene& scen
             return Vec3(std::cos(angle) * pole + std::sin(angle) * aside);
         };
         while (reach < 2.6 && ground.grows(towards(reach + kTurn), kInside_m)) reach += kTurn;
+        // The border to a sixteenth of the last turn, or it would have steps
+        for (double turn_by = kTurn / 2; turn_by > kTurn / 20; turn_by /= 2)
+            if (ground.grows(towards(reach + turn_by), kInside_m)) reach += turn_by;
         reaches.push_back(reach);
         for (int row = 0; row <= kCapRows; ++row) {
             const double angle = reach * row / kCapRows;
@@ -192,15 +195,16 @@ void add_cap(const LockGround& ground, const LockStyle& style, const Scene& scen
     cover_skin(ground, scene, ahead, right, reaches, hair);
 }
 
-/// Every third lock, with every other row of it.
+/// Every third lock, with some six rows of it.
 void add_casters(Hair& hair) {
+    constexpr unsigned kCasterRows = 6;
     std::size_t number = 0;
     for (const HairPiece& piece : hair.pieces) {
         if (!piece.casts || number++ % 3 != 0) continue;
         const auto first = static_cast<unsigned>(piece.first_vertex),
                    columns = static_cast<unsigned>(piece.columns),
                    rows = static_cast<unsigned>(piece.rows);
-        const unsigned step = rows > 4 ? 2 : 1;
+        const unsigned step = std::max(rows / kCasterRows, 1U);
         for (unsigned row = 0; row + step < rows; row += step) {
             const unsigned a = first + columns * row, b = a + columns - 1, c = a + step * columns,
                            d = c + columns - 1;
