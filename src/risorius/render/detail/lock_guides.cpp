@@ -195,8 +195,8 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
 }
 
 void LockGround::add_hairline(RandomSequence& random, std::vector<LockGuide>& guides) const {
-    constexpr int kDirections = 3400;
-    constexpr double kLongest_m = 0.014;
+    constexpr int kDirections = 6000;
+    constexpr double kLongest_m = 0.006;
     const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
     for (int i = 0; i < kDirections; ++i) {
         const double y = 1 - 2 * (i + 0.5) / kDirections, ring = std::sqrt(1 - y * y);
@@ -205,7 +205,7 @@ void LockGround::add_hairline(RandomSequence& random, std::vector<LockGuide>& gu
         if (!grows(d, ragged) || grows(d, 0.006)) continue;
         LockGuide one = guide(d, random, kLongest_m);
         if (one.points.empty()) continue;
-        one.width = 1.1 / style_.width_mm;
+        one.width = 0.6 / style_.width_mm;
         one.layer = 0.5;
         one.single = true;
         guides.push_back(std::move(one));

@@ -64,6 +64,7 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
     HairPiece piece{
         hair.triangles.size(), 0, hair.vertices.size(), columns * rows, columns, rows, !guide.hangs,
         !guide.single};
+    const bool tuft = style.flow == HairFlow::kRadial;
     const double half = 0.5e-3 * style.width_mm * guide.width * (0.75 + 0.5 * chance.tone);
     double along_m = kStrandsAlong_m * chance.along;
     hair.roots.push_back(guide.root);
@@ -87,7 +88,9 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
             v.offset = guide.points[i] + at * width * side +
                        kRoof * width * (1 - std::abs(at)) * out - root;
             v.along = along;
-            v.out = (out + kRound * at * side).normalized();
+            // Tufts are lit as the whole of them is, not strip by strip.
+            v.out = tuft ? (guide.out[i] + 0.4 * out).normalized()
+                         : (out + kRound * at * side).normalized();
             v.strand = {chance.across + at * width / kStrandsAcross_m, along_m / kStrandsAlong_m};
             v.lit = lit;
             v.tone = (0.85 + 0.30 * chance.tone) * (0.85 + 0.25 * s);
