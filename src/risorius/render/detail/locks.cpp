@@ -105,7 +105,9 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
             const unsigned a = first + row * i + k, b = a + 1, c = a + row, d = c + 1;
             hair.triangles.insert(hair.triangles.end(), {a, b, d, a, d, c});
         }
-    if (style.fray_mm > 0 && !guide.single) {
+    // What goes to a knot ends in it.
+    const bool knotted = style.flow == HairFlow::kKnot && !guide.hangs;
+    if (style.fray_mm > 0 && !guide.single && !knotted) {
         add_ends({hair.vertices.end() - static_cast<std::ptrdiff_t>(columns), hair.vertices.end()},
                  1e-3 * style.fray_mm, random, hair);
         piece.vertices = hair.vertices.size() - piece.first_vertex;
