@@ -92,6 +92,12 @@ void expect_same_in_blender(const Json& blender, const io::MorphModel& model,
         ASSERT_TRUE(blender["meshes"].contains(name)) << name << " of " << blender["meshes"].dump();
         EXPECT_EQ(blender["meshes"][name]["scale"], Json({1, 1, 1})) << name;
     }
+    EXPECT_GE(blender["least_value"].get<double>(), 0);
+    EXPECT_LE(blender["greatest_value"].get<double>(), 1);
+    EXPECT_EQ(blender["pictures"], 6);
+    EXPECT_EQ(blender["pictures_in_srgb"], 6);
+    for (const auto& [name, has_picture] : blender["materials"].items())
+        EXPECT_TRUE(has_picture.get<bool>()) << name;
     const std::array<double, 3> size{0.2640, 0.2410, 0.3073};
     for (std::size_t k = 0; k < 3; ++k)
         EXPECT_NEAR(blender["meshes"]["Face"]["size_m"][k].get<double>(), size[k], 1e-4);

@@ -4,7 +4,8 @@
 Menu File, Import, "Risorius face (.glb)": shapes.glb of `risorius shapes`. The frame rate of the scene becomes that of the file,
 so that keys lie on whole frames. With "Drive correctives", each corrective follows the shapes by the rule in the file, so that
 sliders, and motion of your own, look as they do in Risorius; the keys of the correctives are removed, since they say the same.
-Correctives of `shapes --named-correctives` are driven by plain products, others by a function of this file.
+Correctives of `shapes --named-correctives` are driven by plain products, others by a function of this file. With "Camera and lights",
+the scene gets a camera before the face and three lights around it, so that it can be rendered at once.
 
 Menu File, Import, "Live Link Face (.csv)" or "Risorius script (.json)": motion for the selected face and its parts. The frame rate of
 the scene becomes that of the motion. The channels of the script have to be shapes of the face, such as those of ARKit.
@@ -20,6 +21,7 @@ import json
 import struct
 
 import bpy
+import mathutils
 import numpy
 from bpy.props import BoolProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper, ImportHelper
@@ -243,7 +245,7 @@ def put_in_place_of_empty(thing):
     return True
 
 
-def import_face(path, drivers=True):
+def import_face(path, drivers=True, stage=False):
     """Imports shapes.glb. Returns the object of the skin, and what is to be said about the correctives, or ""."""
     rule, fps = rule_of_glb(read_json_of_glb(path))
     scene = bpy.context.scene
@@ -269,7 +271,48 @@ def import_face(path, drivers=True):
         if left:
             note = "%d correctives keep their keys, since they follow too many shapes for a driver" % left
     bpy.context.view_layer.objects.active = face
+    if stage:
+        add_stage(face)
     return face, note
+
+
+def add_light(name, place, target, watt, size):
+    """An area light that shines from a place onto a target."""
+    light = bpy.data.lights.new(name, "AREA")
+    light.energy, light.size = watt, size
+    lamp = bpy.data.objects.new(name, light)
+    lamp.location = place
+    lamp.rotation_euler = (mathutils.Vector(target) - lamp.location).to_track_quat("-Z", "Y").to_euler()
+    bpy.context.scene.collection.objects.link(lamp)
+
+
+def add_stage(face):
+    """A camera before a face, as high as it is, and three lights around it. The face looks along -y."""
+    scene = bpy.context.scene
+    corners = [face.matrix_world @ mathutils.Vector(corner) for corner in face.bound_box]
+    low = [min(c[k] for c in corners) for k in range(3)]
+    high = [max(c[k] for c in corners) for k in range(3)]
+    height = high[2] - low[2]
+    middle = mathutils.Vector(((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2))
+    lens = bpy.data.cameras.new("Camera of " + face.name)
+    lens.lens, lens.sensor_fit, lens.clip_start = 85, "VERTICAL", 0.01
+    camera = bpy.data.objects.new(lens.name, lens)
+    camera.location = middle + mathutils.Vector((0, -4.4 * height, 0.02 * height))
+    camera.rotation_euler = (middle - camera.location).to_track_quat("-Z", "Y").to_euler()
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.resolution_x = scene.render.resolution_y = 1024
+    for name, place, watt, size in (
+        ("Key", (-1.5, -2.6, 1.6), 14, 1.2),
+        ("Fill", (2.2, -2.2, 0.3), 4, 2.0),
+        ("Rim", (1.4, 2.2, 1.8), 8, 1.0),
+    ):
+        offset = mathutils.Vector(place) * height
+        add_light(name, middle + offset, middle, watt * height**2 * 10, size * height)
+    if scene.world is None:
+        scene.world = bpy.data.worlds.new("World")
+    # Filmic, the default, makes the colours of pictures pale
+    scene.view_settings.view_transform = "Standard"
 
 
 def parts_of(face):
@@ -400,9 +443,13 @@ class RISORIUS_OT_import_face(bpy.types.Operator, ImportHelper):
         name="Drive correctives", default=True, description="Correctives follow the shapes by drivers"
     )
 
+    stage: BoolProperty(
+        name="Camera and lights", default=False, description="A camera before the face, and three lights"
+    )
+
     def execute(self, context):
         try:
-            note = import_face(self.filepath, self.drivers)[1]
+            note = import_face(self.filepath, self.drivers, self.stage)[1]
             if note:
                 self.report({"WARNING"}, note)
         except (OSError, ValueError, RuntimeError) as error:
