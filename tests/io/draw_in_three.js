@@ -74,34 +74,31 @@ function drawMouth(buffer, size, say) {
         const camera = new THREE.OrthographicCamera(-0.06, 0.06, 0.06, -0.06, 0.01, 2);
         camera.position.set(0, -0.055, 1);
         const renderer = new THREE.WebGLRenderer({antialias: false, preserveDrawingBuffer: true});
+        if (THREE.sRGBEncoding !== undefined) renderer.outputEncoding = THREE.sRGBEncoding;
         renderer.setSize(size, size);
         document.body.appendChild(renderer.domElement);
         setShape(gltf.scene, 'jawOpen', 1);
         gltf.scene.traverse((mesh) => { mesh.frustumCulled = false; });
-        const draw = () => {
-            const lit = picture(renderer, scene, camera, size);
-            const calls = renderer.info.render.calls;
-            const names = ['Face', 'LeftEye'].filter((name) => gltf.scene.getObjectByName(name));
-            const still = renderer.domElement.toDataURL('image/png');
-            let withMap = 0, meshes = 0;
-            gltf.scene.traverse((mesh) => {
-                if (!mesh.isMesh) return;
-                ++meshes;
-                if (mesh.material.map) ++withMap;
-            });
-            paintBySubstance(gltf.scene);
-            const plain = picture(renderer, scene, camera, size);
-            say({
-                mouth: mouthOf(lit, plain, size, 6),
-                calls: calls,
-                names: names,
-                meshes: meshes,
-                withMap: withMap,
-                morphBytes: morphMemory(gltf.scene),
-                picture: still,
-            });
-        };
-        // Once the pictures of the textures are there
-        setTimeout(draw, 500);
+        const lit = picture(renderer, scene, camera, size);
+        const calls = renderer.info.render.calls;
+        const still = renderer.domElement.toDataURL('image/png');
+        let meshes = 0, withMap = 0;
+        gltf.scene.traverse((mesh) => {
+            if (!mesh.isMesh) return;
+            ++meshes;
+            if (mesh.material.map) ++withMap;
+        });
+        const morphBytes = morphMemory(gltf.scene);
+        paintBySubstance(gltf.scene);
+        const plain = picture(renderer, scene, camera, size);
+        say({
+            mouth: mouthOf(lit, plain, size, 6),
+            calls: calls,
+            names: ['Face', 'LeftEye'].filter((name) => gltf.scene.getObjectByName(name)),
+            meshes: meshes,
+            withMap: withMap,
+            morphBytes: morphBytes,
+            picture: still,
+        });
     }, (error) => say({error: String(error)}));
 }

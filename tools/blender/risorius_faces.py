@@ -10,6 +10,9 @@ the scene gets a camera before the face and three lights around it, so that it c
 Menu File, Import, "Live Link Face (.csv)" or "Risorius script (.json)": motion for the selected face and its parts. The frame rate of
 the scene becomes that of the motion. The channels of the script have to be shapes of the face, such as those of ARKit.
 
+Menu File, Import, "Risorius maps (results.json)": the wrinkles that `shapes --maps` has written, for the selected face. Each normal map is
+multiplied by the weight of its shape.
+
 Menu File, Export, "Risorius script (.json)": the keys of the selected face as a script that `risorius render` plays.
 
 The importer of glTF in Debian's Blender 3.4 uses numpy.bool, which numpy 1.24 no longer has. This file gives it back.
@@ -18,12 +21,13 @@ The importer of glTF in Debian's Blender 3.4 uses numpy.bool, which numpy 1.24 n
 import csv
 import hashlib
 import json
+import os
 import struct
 
 import bpy
 import mathutils
 import numpy
-from bpy.props import BoolProperty, FloatProperty, StringProperty
+from bpy.props import BoolProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 bl_info = {
@@ -315,6 +319,70 @@ def add_stage(face):
     scene.view_settings.view_transform = "Standard"
 
 
+FLAT = (128 / 255, 128 / 255, 1.0)  # the colour of a normal map without wrinkles
+
+
+def driven_value(tree, keys, name):
+    """A node with the weight of a shape."""
+    node = tree.nodes.new("ShaderNodeValue")
+    node.label = name
+    driver = node.outputs[0].driver_add("default_value").driver
+    driver.type = "AVERAGE"
+    target = driver.variables.new().targets[0]
+    target.id_type = "KEY"
+    target.id = keys
+    target.data_path = 'key_blocks["%s"].value' % name
+    return node
+
+
+def vector_math(tree, operation, *inputs):
+    """A node of vector arithmetic with inputs that are outputs of nodes, or vectors."""
+    node = tree.nodes.new("ShaderNodeVectorMath")
+    node.operation = operation
+    for slot, given in zip(node.inputs, inputs):
+        if isinstance(given, tuple):
+            slot.default_value = given
+        else:
+            tree.links.new(given, slot)
+    return node.outputs[0]
+
+
+def map_picture(tree, path):
+    """A node with a normal map."""
+    node = tree.nodes.new("ShaderNodeTexImage")
+    node.image = bpy.data.images.load(path, check_existing=True)
+    node.image.colorspace_settings.name = "Non-Color"
+    return node.outputs["Color"]
+
+
+def import_maps(path, face, most=24):
+    """Adds the deepest normal maps of `shapes --maps` to the material of the skin, each times the weight of its shape. Returns how many."""
+    with open(path, encoding="utf-8") as file:
+        maps = json.load(file).get("maps")
+    if not maps:
+        raise ValueError(path + ": expected results.json of shapes --maps, found none of its maps")
+    keys = face.data.shape_keys
+    found = [m for m in maps["shapes"] if m["normal"] and m["name"] in keys.key_blocks]
+    found = sorted(found, key=lambda m: -m["deepest_mm"])[:most]
+    skins = [m for m in face.data.materials if m and m.name.split(".")[0] == "Skin" and m.use_nodes]
+    if not found or not skins:
+        raise ValueError("expected a face with a material Skin and shapes of these maps, found none")
+    tree, folder = skins[0].node_tree, os.path.dirname(os.path.abspath(path))
+    total = FLAT
+    if maps.get("neutral_normal"):
+        total = map_picture(tree, os.path.join(folder, maps["neutral_normal"]))
+    for one in found:
+        turn = vector_math(tree, "SUBTRACT", map_picture(tree, os.path.join(folder, one["normal"])), FLAT)
+        weight = driven_value(tree, keys, one["name"]).outputs[0]
+        total = vector_math(tree, "MULTIPLY_ADD", turn, weight, total)
+    normal = tree.nodes.new("ShaderNodeNormalMap")
+    tree.links.new(total, normal.inputs["Color"])
+    for shader in tree.nodes:
+        if shader.type == "BSDF_PRINCIPLED":
+            tree.links.new(normal.outputs["Normal"], shader.inputs["Normal"])
+    return len(found)
+
+
 def parts_of(face):
     """The meshes with shapes that came with a face, and the face."""
     name = face.get(PART)
@@ -499,6 +567,19 @@ class RISORIUS_OT_import_script(bpy.types.Operator, ImportHelper):
         return with_face(self, context, read)
 
 
+class RISORIUS_OT_import_maps(bpy.types.Operator, ImportHelper):
+    bl_idname = "import_image.risorius_maps"
+    bl_label = "Import the wrinkles of a Risorius face"
+    filename_ext = ".json"
+    filter_glob: StringProperty(default="results.json", options={"HIDDEN"})
+    most: IntProperty(
+        name="Maps at most", default=24, min=1, description="Those of the deepest wrinkles. Eevee draws about 30 pictures in a material"
+    )
+
+    def execute(self, context):
+        return with_face(self, context, lambda face: import_maps(self.filepath, face, self.most))
+
+
 class RISORIUS_OT_export_script(bpy.types.Operator, ExportHelper):
     bl_idname = "export_anim.risorius_script"
     bl_label = "Export a Risorius script"
@@ -518,6 +599,7 @@ CLASSES = (
     RISORIUS_OT_import_face,
     RISORIUS_OT_import_motion,
     RISORIUS_OT_import_script,
+    RISORIUS_OT_import_maps,
     RISORIUS_OT_export_script,
 )
 
@@ -526,6 +608,7 @@ def _import_menu(menu, _):
     menu.layout.operator(RISORIUS_OT_import_face.bl_idname, text="Risorius face (.glb)")
     menu.layout.operator(RISORIUS_OT_import_motion.bl_idname, text="Live Link Face (.csv)")
     menu.layout.operator(RISORIUS_OT_import_script.bl_idname, text="Risorius script (.json)")
+    menu.layout.operator(RISORIUS_OT_import_maps.bl_idname, text="Risorius maps (results.json)")
 
 
 def _export_menu(menu, _):

@@ -193,8 +193,8 @@ class MapMaker {
 double most(const std::vector<double>& values) {
     return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
 }
-bool folds(const SkinState& state) {
-    return state.fold.rows() > 0 && state.fold.cwiseAbs().maxCoeff() > kSeenFold_m;
+double deepest_m(const SkinState& state) {
+    return state.fold.rows() > 0 ? state.fold.cwiseAbs().maxCoeff() : 0;
 }
 std::vector<std::uint16_t> first_channel(const Image& image) {
     std::vector<std::uint16_t> out;
@@ -222,7 +222,8 @@ Json MapsReport::json() const {
         list.push_back(json_object({{"name", one.name},
                                     {"compression", or_null(one.compression)},
                                     {"stretch", or_null(one.stretch)},
-                                    {"normal", or_null(one.normal)}}));
+                                    {"normal", or_null(one.normal)},
+                                    {"deepest_mm", 1e3 * one.deepest_m}}));
     return json_object({{"side_px", side_px},
                         {"strain_at_white", kFull},
                         {"neutral_normal", or_null(neutral_normal)},
@@ -241,7 +242,7 @@ MapsReport write_shape_maps(const scene::RigFiles& files, const face::Face& face
         return std::string(kMapsFolder) + "/" + name + "_" + kind + ".png";
     };
     const std::string neutral = report::folder_name("neutral", taken);
-    if (folds(maker.rest())) {
+    if (deepest_m(maker.rest()) > kSeenFold_m) {
         out.neutral_normal = file_of(neutral, "normal");
         media::write_png(maker.normals(maker.rest()), folder / out.neutral_normal);
     }
@@ -280,7 +281,8 @@ MapsReport write_shape_maps(const scene::RigFiles& files, const face::Face& face
         };
         write_grey(state.compression, "compression", maps.compression);
         write_grey(state.stretch, "stretch", maps.stretch);
-        if (!folds(state)) return;
+        if (!(deepest_m(state) > kSeenFold_m)) return;
+        maps.deepest_m = deepest_m(state);
         maps.normal = file_of(names[i], "normal");
         media::write_png(maker.normals(state), folder / maps.normal);
     });

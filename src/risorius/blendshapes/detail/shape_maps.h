@@ -26,6 +26,7 @@ namespace risorius::blendshapes {
 /// The files of a shape, relative to the folder; empty where the shape changes nothing that would be seen.
 struct ShapeMaps {
     std::string name, compression, stretch, normal;
+    double deepest_m = 0;  ///< largest change of the depth of a wrinkle in `normal`
 };
 
 struct MapsReport {

@@ -30,14 +30,15 @@ constexpr double kExplained = 0.15;  // a frame of which more is left decides, t
 
 class UnitSolver {
   public:
-    UnitSolver(const UnitBench& bench, const FitTarget& given, UnitState rest,
+    UnitSolver(const UnitBench& bench, const FitTarget& given, std::vector<UnitState> known,
                const UnitSolveOptions& options, const ProgressMonitor& monitor)
         : bench_(bench),
           options_(options),
           monitor_(monitor),
           times_s_(given.times_s),
           root_(roots_of(bench, given)),
-          model_(weighted(std::move(rest))) {
+          model_(weighted(std::move(known.at(0)))) {
+        for (std::size_t k = 1; k < known.size(); ++k) model_.add(weighted(std::move(known[k])));
         const std::vector<int>& vertices = bench.vertices();
         points_ = root_.squaredNorm() / 3;
         target_.resize(root_.size(), static_cast<long>(given.fields.size()));
@@ -147,6 +148,7 @@ class UnitSolver {
         const std::vector<bool> before = active_;
         Eigen::VectorXd w = Eigen::VectorXd::Zero(bench_.sources().count());
         UnitChoice best;
+        UnitBench::Walk walk(bench_);
         double least = std::numeric_limits<double>::infinity();
         const auto choose = [&] {
             const UnitChoice choice = choose_units(model_.tangent(w), goal, bench_.sources(),
@@ -160,7 +162,7 @@ class UnitSolver {
             double last = std::numeric_limits<double>::infinity();
             for (int round = 0; round < kCorrections; ++round) {
                 if (round > 0) w = fitted(goal, w);
-                const double left = simulate_one(w, goal);
+                const double left = simulate_one(w, goal, walk);
                 const bool ends = left > kGain * last;
                 last = left;
                 if (left < least) {
@@ -176,6 +178,7 @@ class UnitSolver {
              ++round) {
             w = best.weight;
             model_.add(weighted(bench_.state(w, quiet())));
+            walk.restart();
             const double last_least = least;
             choose();
             if (least > kGain * last_least) break;
@@ -184,7 +187,7 @@ class UnitSolver {
         w = best.weight;
         for (int round = 0; round < kRounds; ++round) {
             w = fitted(goal, w);
-            const double left = simulate_one(w, goal);
+            const double left = simulate_one(w, goal, walk);
             if (left < options_.least_gain_m || left > kGain * least) break;
             least = left;
         }
@@ -194,8 +197,9 @@ class UnitSolver {
     }
 
     /// Adds the equilibrium under weights to the model. Returns the RMS distance from the goal, m.
-    double simulate_one(const Eigen::VectorXd& w, const Eigen::VectorXd& goal) {
-        const Eigen::VectorXd moved = root_.asDiagonal() * bench_.moved({w}, quiet())[0];
+    double simulate_one(const Eigen::VectorXd& w, const Eigen::VectorXd& goal,
+                        UnitBench::Walk& walk) {
+        const Eigen::VectorXd moved = root_.asDiagonal() * walk.moved(w, quiet());
         model_.add(w, moved);
         return rms_of(moved - goal);
     }
@@ -236,14 +240,12 @@ class UnitSolver {
     double simulate(const std::vector<long>& frames) {
         std::vector<Eigen::VectorXd> weights;
         for (const long t : frames) weights.emplace_back(weight_.col(t));
-        const std::vector<Eigen::VectorXd> moved = bench_.moved(weights, quiet());
+        const std::vector<Eigen::VectorXd> moved = bench_.moved_in_turn(weights, quiet());
         double most = 0;
         std::vector<Eigen::VectorXd> found;
         for (std::size_t i = 0; i < frames.size(); ++i) {
             found.emplace_back(root_.asDiagonal() * moved[i]);
             most = std::max(most, rms_of(found[i] - model_.moved(weights[i])));
-        }
-        for (std::size_t i = 0; i < frames.size(); ++i) {
         }
         for (std::size_t i = 0; i < frames.size(); ++i) model_.add(weights[i], found[i]);
         return most;
@@ -387,9 +389,10 @@ class UnitSolver {
 
 }  // namespace
 
-UnitSolution solve_units(const UnitBench& bench, const FitTarget& given, UnitState rest,
-                         const UnitSolveOptions& options, const ProgressMonitor& monitor) {
-    return UnitSolver(bench, given, std::move(rest), options, monitor).solve();
+UnitSolution solve_units(const UnitBench& bench, const FitTarget& given,
+                         std::vector<UnitState> known, const UnitSolveOptions& options,
+                         const ProgressMonitor& monitor) {
+    return UnitSolver(bench, given, std::move(known), options, monitor).solve();
 }
 
 }  // namespace risorius::inverse

@@ -48,8 +48,9 @@ struct UnitSolution {
     std::vector<bool> simulated;  ///< one per frame
 };
 
-/// `rest`: that of the bench. Throws Interrupted.
-UnitSolution solve_units(const UnitBench& bench, const FitTarget& given, UnitState rest,
-                         const UnitSolveOptions& options, const ProgressMonitor& monitor);
+/// `known`: that of the bench. Throws Interrupted.
+UnitSolution solve_units(const UnitBench& bench, const FitTarget& given,
+                         std::vector<UnitState> known, const UnitSolveOptions& options,
+                         const ProgressMonitor& monitor);
 
 }  // namespace risorius::inverse
