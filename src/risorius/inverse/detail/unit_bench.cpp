@@ -101,12 +101,17 @@ std::vector<Eigen::VectorXd> UnitBench::moved(const std::vector<Eigen::VectorXd>
     return out;
 }
 
-UnitState UnitBench::state(const Eigen::VectorXd& weight, const ProgressMonitor& monitor) const {
+UnitState UnitBench::state(const Eigen::VectorXd& weight, const std::vector<bool>& wanted,
+                           const ProgressMonitor& monitor) const {
     std::vector<track::Expansion> changes;
     std::set<int> columns;
     std::set<track::Kinematic> channels;
     for (long s = 0; s < sources_.count(); ++s) {
         changes.push_back(sources_.change_of(static_cast<std::size_t>(s), weight[s]));
+        if (!wanted.empty() && !wanted[static_cast<std::size_t>(s)]) {
+            changes.back().excitation.setZero();
+            changes.back().kinematic = {};
+        }
         for (long c = 0; c < changes.back().excitation.size(); ++c)
             if (changes.back().excitation[c] != 0) columns.insert(static_cast<int>(c));
         for (std::size_t k = 0; k < changes.back().kinematic.size(); ++k)
@@ -230,7 +235,7 @@ std::vector<UnitState> UnitBench::known(const scene::RigFiles& files, const std:
                 monitor.report(kShapes + (1 - kShapes) * static_cast<double>(i) /
                                              static_cast<double>(usual.size()),
                                "usual expressions");
-                keep(state(usual[i], {.progress = {}, .stopped = monitor.stopped}), made);
+                keep(state(usual[i], {}, {.progress = {}, .stopped = monitor.stopped}), made);
             }
             return made;
         },

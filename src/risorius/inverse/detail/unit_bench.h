@@ -30,8 +30,10 @@ class UnitBench {
     std::vector<Eigen::VectorXd> moved_in_turn(const std::vector<Eigen::VectorXd>& weights,
                                                const ProgressMonitor& monitor) const;
 
-    /// The equilibrium under weights, with the derivatives of the points by the weights of all sources. Throws Interrupted.
-    UnitState state(const Eigen::VectorXd& weight, const ProgressMonitor& monitor) const;
+    /// The equilibrium under weights, with the derivatives of the points by the weights of the `wanted` sources; empty: of all. Those of
+    /// the others are 0. Throws Interrupted.
+    UnitState state(const Eigen::VectorXd& weight, const std::vector<bool>& wanted,
+                    const ProgressMonitor& monitor) const;
 
     /// What is known of a rig before anything is sought. First the face at rest with the unit shapes: what each source moves at part of its
     /// weight, over that part. Both sides of a unit are simulated at once, and what they move is shared between them. Then expressions

@@ -20,13 +20,15 @@ constexpr double kKeep = 1e-5;     // of squared differences from the weights of
 constexpr double kGain = 0.9;      // of what was left; with less a search ends
 constexpr double kMuscleCost = 4;  // relative to a unit
 constexpr double kNearEnough =
-    1.5;  // a choice with less left, relative to the least gain of a unit, is not made again
-constexpr int kCorrections = 6, kCloseChoices = 3, kRounds = 3, kTangents = 4, kChecks = 3,
-              kSweeps = 3;
+    2.5;  // a choice with less left, relative to the least gain of a unit, is not made again
+constexpr int kCorrections = 6, kCloseChoices = 2, kChoices = 3, kRounds = 3, kTangents = 4,
+              kChecks = 2, kSweeps = 3;
 constexpr double kSmooth =
-    1e-4;                     // of squared differences from the mean of the neighbours of a frame
-constexpr int kMostTops = 4;  // frames that decide which units there are
-constexpr double kExplained = 0.15;  // a frame of which more is left decides, too
+    1e-4;  // of squared differences from the mean of the neighbours of a frame
+constexpr std::size_t kRivals = 16;
+constexpr int kFramesForOne = 10, kLeastFrames = 3;  // for one that is simulated; at least
+constexpr int kMostTops = 4;                         // frames that decide which units there are
+constexpr double kExplained = 0.15;                  // a frame of which more is left decides, too
 
 class UnitSolver {
   public:
@@ -68,6 +70,7 @@ class UnitSolver {
         make_channels();
         if (channels_.empty()) return out;
         find_keys();
+        if (channels_.empty()) return out;
         const std::vector<long> checked = some_frames();
         // Where the model was off, the new equilibria correct it. The last ones are those of the script as it is written.
         for (int round = 0; round < kChecks; ++round) {
@@ -151,13 +154,18 @@ class UnitSolver {
         UnitBench::Walk walk(bench_);
         double least = std::numeric_limits<double>::infinity();
         const auto choose = [&] {
-            const UnitChoice choice = choose_units(model_.tangent(w), goal, bench_.sources(),
-                                                   {.most = options_.most,
-                                                    .unit_cost = cost,
-                                                    .muscle_cost = kMuscleCost * cost,
-                                                    .price = kSmallPrice});
-            active_ = choice.active;
-            w = choice.weight;
+            // What is known of the rig near the first choice may tell a better one.
+            for (int round = 0; round < kChoices; ++round) {
+                const UnitChoice choice = choose_units(model_.tangent(w), goal, bench_.sources(),
+                                                       {.most = options_.most,
+                                                        .unit_cost = cost,
+                                                        .muscle_cost = kMuscleCost * cost,
+                                                        .price = kSmallPrice});
+                const bool same = choice.active == active_;
+                active_ = choice.active;
+                w = fitted(goal, choice.weight);
+                if (same) break;
+            }
             // A new choice is judged after a correction.
             double last = std::numeric_limits<double>::infinity();
             for (int round = 0; round < kCorrections; ++round) {
@@ -169,7 +177,7 @@ class UnitSolver {
                     least = left;
                     best = {active_, w, left};
                 }
-                if (ends) break;
+                if (ends || left < options_.least_gain_m) break;
             }
         };
         choose();
@@ -177,7 +185,7 @@ class UnitSolver {
         for (int round = 0; round < kCloseChoices && least > kNearEnough * options_.least_gain_m;
              ++round) {
             w = best.weight;
-            model_.add(weighted(bench_.state(w, quiet())));
+            add_state(w, goal);
             walk.restart();
             const double last_least = least;
             choose();
@@ -185,7 +193,7 @@ class UnitSolver {
         }
         active_ = best.active;
         w = best.weight;
-        for (int round = 0; round < kRounds; ++round) {
+        for (int round = 0; round < kRounds && least > options_.least_gain_m; ++round) {
             w = fitted(goal, w);
             const double left = simulate_one(w, goal, walk);
             if (left < options_.least_gain_m || left > kGain * least) break;
@@ -194,6 +202,26 @@ class UnitSolver {
         w = fitted(goal, w);
         for (std::size_t s = 0; s < active_.size(); ++s) active_[s] = active_[s] || before[s];
         weight_.col(frame) = w;
+    }
+
+    /// Adds the equilibrium under weights to the model with its derivatives: by the sources that are used, and by those of which a little
+    /// would help most. Of all others the model has good ones.
+    void add_state(const Eigen::VectorXd& w, const Eigen::VectorXd& goal) {
+        const UnitModel::Tangent now = model_.tangent(w);
+        const Eigen::VectorXd left = goal - now.at_zero - now.way * w;
+        std::vector<std::pair<double, std::size_t>> help;
+        for (std::size_t s = 0; s < active_.size(); ++s) {
+            const auto way = now.way.col(static_cast<long>(s));
+            help.emplace_back(-std::pow(way.dot(left), 2) / std::max(way.squaredNorm(), 1e-30), s);
+        }
+        std::sort(help.begin(), help.end());
+        std::vector<bool> wanted = active_;
+        for (std::size_t i = 0; i < std::min(help.size(), kRivals); ++i)
+            wanted[help[i].second] = true;
+        UnitState state = weighted(bench_.state(w, wanted, quiet()));
+        for (std::size_t s = 0; s < wanted.size(); ++s)
+            if (!wanted[s]) state.way.col(static_cast<long>(s)) = now.way.col(static_cast<long>(s));
+        model_.add(std::move(state));
     }
 
     /// Adds the equilibrium under weights to the model. Returns the RMS distance from the goal, m.
@@ -225,12 +253,14 @@ class UnitSolver {
     /// Frames that are equally far apart in motion, with that of the largest.
     std::vector<long> some_frames() const {
         const long all = target_.cols();
+        const int count =
+            std::clamp(static_cast<int>(all / kFramesForOne), kLeastFrames, options_.frames);
         std::vector<double> way{0};
         for (long t = 1; t < all; ++t)
             way.push_back(way.back() + (target_.col(t) - target_.col(t - 1)).norm());
         std::set<long> out{peak_};
-        for (int k = 0; k + 1 < options_.frames; ++k) {
-            const double at = way.back() * (k + 0.5) / (options_.frames - 1);
+        for (int k = 0; k + 1 < count; ++k) {
+            const double at = way.back() * (k + 0.5) / (count - 1);
             out.insert(std::lower_bound(way.begin(), way.end(), at) - way.begin());
         }
         return {out.begin(), out.end()};
@@ -324,10 +354,26 @@ class UnitSolver {
     }
 
     void find_keys() {
-        Eigen::MatrixXd values(static_cast<long>(channels_.size()), target_.cols());
-        for (long t = 0; t < target_.cols(); ++t) values.col(t) = in_channels(weight_.col(t));
-        keys_ = joint_keys(times_s_, costs(), values, squares_of(options_.key_error_m));
-        use_keys();
+        for (bool again = true; again && !channels_.empty();) {
+            Eigen::MatrixXd values(static_cast<long>(channels_.size()), target_.cols());
+            for (long t = 0; t < target_.cols(); ++t) values.col(t) = in_channels(weight_.col(t));
+            keys_ = joint_keys(times_s_, costs(), values, squares_of(options_.key_error_m));
+            again = leave_out_idle();
+            use_keys();
+        }
+    }
+    /// Leaves out channels that hardly do anything by their keys. Says whether there are any.
+    bool leave_out_idle() {
+        bool found = false;
+        for (std::size_t c = channels_.size(); c-- > 0;) {
+            if (std::any_of(keys_[c].begin(), keys_[c].end(),
+                            [](const track::Key& key) { return key.value >= kLeastWeight; }))
+                continue;
+            channels_.erase(channels_.begin() + static_cast<long>(c));
+            keys_.erase(keys_.begin() + static_cast<long>(c));
+            found = true;
+        }
+        return found;
     }
     void refit_keys() {
         for (int round = 0; round < 2; ++round) {

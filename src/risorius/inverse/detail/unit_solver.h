@@ -31,7 +31,7 @@ struct UnitSolveOptions {
     /// RMS that the face may move when both sides share a curve, m
     double same_sides_m = 3e-5;
     double key_error_m = 5e-5;  ///< RMS that the face may move when keys are left out
-    int frames = 7;             ///< that are simulated in each round
+    int frames = 7;             ///< at most, that are simulated in each round
 };
 
 /// The curve of a channel of a script, smooth between keys.
