@@ -94,7 +94,9 @@ with open(out, "w") as file:
             "meshes": meshes,
             "pictures": len(pictures),
             "pictures_in_srgb": len([i for i in pictures if i.colorspace_settings.name == "sRGB"]),
-            "materials": {m.name: has_picture(m) for m in bpy.data.materials if m.users and m.node_tree},
+            "materials": {
+                m.name: has_picture(m) for o in bpy.data.objects if o.type == "MESH" for m in o.data.materials
+            },
             "least_value": min(values, default=0),
             "greatest_value": max(values, default=0),
             "whole_frames": whole,
