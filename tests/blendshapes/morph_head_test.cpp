@@ -166,7 +166,8 @@ TEST_F(MorphHead, EyesTurnByShapesOrByNodesAsAsked) {
     EXPECT_FALSE(targets_of_eyes().at("EyeLeft"));
     EXPECT_TRUE(targets_of_eyes().at("Lashes"));
     EXPECT_EQ(message_of([] { eyes_named("bones"); }),
-              "eyes: expected one of \"morph\", \"bone\", \"both\" (did you mean \"bone\"?), found \"bones\"");
+              "eyes: expected one of \"morph\", \"bone\", \"both\" (did you mean \"bone\"?), found "
+              "\"bones\"");
 }
 
 TEST_F(MorphHead, TheLowerTeethTellTheAxisOfTheJaw) {

@@ -215,6 +215,22 @@ std::vector<TrackError> compare_tracks(const scene::RigFiles& files, const Shape
     return out;
 }
 
+void check_options(const ShapesOptions& options) {
+    for (const std::string& format : options.formats)
+        index_of_name(option_name("formats"), format, shape_formats());
+    constexpr int kMin_px = 256, kMax_px = 4096;
+    for (const auto& [name, px] :
+         {std::pair{"texture_px", options.texture_px}, {"maps_px", options.maps_px}})
+        if (px != 0 && (px < kMin_px || px > kMax_px))
+            throw Error(option_name(name),
+                        "0 or " + std::to_string(kMin_px) + ".." + std::to_string(kMax_px),
+                        std::to_string(px));
+    if (options.levels < 0 || options.levels > kMaxLevels)
+        throw Error(option_name("levels"), "0.." + std::to_string(kMaxLevels),
+                    std::to_string(options.levels));
+    eyes_named(options.eyes);
+}
+
 }  // namespace
 
 const std::vector<std::string>& shape_formats() {
@@ -269,19 +285,7 @@ Json ShapesReport::json() const {
 }
 
 ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& monitor) {
-    for (const std::string& format : options.formats)
-        index_of_name(option_name("formats"), format, shape_formats());
-    constexpr int kMin_px = 256, kMax_px = 4096;
-    for (const auto& [name, px] :
-         {std::pair{"texture_px", options.texture_px}, {"maps_px", options.maps_px}})
-        if (px != 0 && (px < kMin_px || px > kMax_px))
-            throw Error(option_name(name),
-                        "0 or " + std::to_string(kMin_px) + ".." + std::to_string(kMax_px),
-                        std::to_string(px));
-    if (options.levels < 0 || options.levels > kMaxLevels)
-        throw Error(option_name("levels"), "0.." + std::to_string(kMaxLevels),
-                    std::to_string(options.levels));
-    eyes_named(options.eyes);
+    check_options(options);
     const scene::RigFiles files = scene::read_rig_files(options.rig, monitor.stopped);
     const ShapeSet set = shape_set(files.rig, options.set, options.only, files.place());
     report::AtomicFolder folder(options.out);
