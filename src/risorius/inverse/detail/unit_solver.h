@@ -6,8 +6,8 @@
 ///
 ///   g   displacement of the landmarks in a frame      u(w)   that of the face in equilibrium under the units at intensities w
 ///
-/// The frame of the largest motion decides which units there are (unit_choice.h), by the sum of unit shapes; an equilibrium under the
-/// chosen units corrects the sum, and the choice is made again. Then other frames decide that these units do not explain. All frames are fitted with a model (unit_model.h) through equilibria that are simulated in
+/// The frame of the largest motion decides which units there are (unit_choice.h), by the sum of unit shapes and by expressions that are
+/// known of the rig; an equilibrium under the chosen units corrects the sum, and the choice is made again. Then other frames decide that these units do not explain. All frames are fitted with a model (unit_model.h) through equilibria that are simulated in
 /// few of them. Keys are left out as long as the face, and not a single curve, stays near (joint_keys.h). Then the script is
 /// simulated in some frames; where the model was off, these equilibria correct it, and the values of the keys are fitted again.
 #pragma once
