@@ -92,6 +92,12 @@ void expect_same_in_blender(const Json& blender, const io::MorphModel& model,
         ASSERT_TRUE(blender["meshes"].contains(name)) << name << " of " << blender["meshes"].dump();
         EXPECT_EQ(blender["meshes"][name]["scale"], Json({1, 1, 1})) << name;
     }
+    EXPECT_GE(blender["least_value"].get<double>(), 0);
+    EXPECT_LE(blender["greatest_value"].get<double>(), 1);
+    EXPECT_EQ(blender["pictures"], 6);
+    EXPECT_EQ(blender["pictures_in_srgb"], 6);
+    for (const auto& [name, has_picture] : blender["materials"].items())
+        EXPECT_TRUE(has_picture.get<bool>()) << name;
     const std::array<double, 3> size{0.2640, 0.2410, 0.3073};
     for (std::size_t k = 0; k < 3; ++k)
         EXPECT_NEAR(blender["meshes"]["Face"]["size_m"][k].get<double>(), size[k], 1e-4);
@@ -120,6 +126,54 @@ void expect_same_in_blender(const Json& blender, const io::MorphModel& model,
         EXPECT_NEAR(blender["weights_of_script"][name].get<double>(),
                     blender["weights"].back()[name].get<double>(), 1e-4);
     }
+}
+
+constexpr const char* kThreeOfDebian = "/usr/share/javascript/three";
+
+/// What three.js in headless Chromium draws of a face with the jaw open; null where either is not installed.
+Json drawn_in_three(const fs::path& glb, const fs::path& folder) {
+    if (!fs::exists(kThreeOfDebian) || std::system("command -v chromium >/dev/null 2>&1") != 0)
+        return {};
+    const fs::path page = folder / "page.html";
+    {
+        std::ofstream out(page);
+        for (const std::string& source :
+             {std::string(kThreeOfDebian) + "/build/three.js",
+              std::string(kThreeOfDebian) + "/examples/js/loaders/GLTFLoader.js",
+              std::string(RISORIUS_SOURCE_DIR) + "/tests/io/draw_in_three.js"})
+            out << "<script src=\"file://" << source << "\"></script>\n";
+        out << "<body><pre id=said></pre><script>const bytes = new Uint8Array([";
+        for (const char byte : read_file(glb, {"a face", 100 * kMegabyte}))
+            out << static_cast<int>(static_cast<unsigned char>(byte)) << ',';
+        out << "]);\ndrawMouth(bytes.buffer, 256, (what) => "
+               "document.getElementById('said').textContent = "
+               "'[[[' + JSON.stringify(what) + ']]]');</script></body>\n";
+    }
+    const std::string dom = run_shell(
+                                "chromium --headless --no-sandbox --use-angle=swiftshader "
+                                "--enable-unsafe-swiftshader --allow-file-access-from-files "
+                                "--virtual-time-budget=60000 --user-data-dir='" +
+                                (folder / "profile").string() + "' --dump-dom 'file://" +
+                                page.string() + "' 2>/dev/null")
+                                .output;
+    const std::size_t from = dom.find("[[["), to = dom.find("]]]", from);
+    EXPECT_NE(to, std::string::npos)
+        << dom.substr(dom.size() - std::min<std::size_t>(500, dom.size()));
+    if (to == std::string::npos) return {};
+    return Json::parse(dom.substr(from + 3, to - from - 3), nullptr, false);
+}
+
+// Programs that light the mouth as they light the face must show it dark, too.
+void expect_dark_mouth_in_three(const Json& three) {
+    ASSERT_TRUE(three.is_object() && three.contains("mouth")) << three.dump().substr(0, 500);
+    const Json& mouth = three["mouth"];
+    EXPECT_GT(mouth["pixels"][0].get<int>(), 300);
+    EXPECT_GT(mouth["pixels"][1].get<int>(), 300);
+    EXPECT_GT(mouth["lips"].get<double>(), 40);
+    EXPECT_LT(mouth["inside"].get<double>(), 0.5 * mouth["lips"].get<double>());
+    EXPECT_EQ(three["names"], Json({"Face", "LeftEye"}));
+    EXPECT_EQ(three["withMap"], three["meshes"]);
+    EXPECT_LE(three["calls"].get<int>(), 13);
 }
 
 // The smile and the open mouth overlap, so that there is a corrective with a weight.
@@ -159,6 +213,9 @@ TEST(BakedScript, TheAnimationHasWeightsFromZeroToOneAndIsTheCache) {
             played_in_blender(options.out / "shapes.glb", folder.path() / "blender.json");
         !blender.is_null())
         expect_same_in_blender(blender, model, cache);
+    if (const Json three = drawn_in_three(options.out / "shapes.glb", folder.path());
+        !three.is_null())
+        expect_dark_mouth_in_three(three);
     for (const MadeShape& made : report.shapes.list)
         EXPECT_LT(made.certificate.rigid_part_m, 0.1e-3) << made.goal.name;
 

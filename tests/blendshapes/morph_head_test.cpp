@@ -4,11 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstring>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "message_of.h"
 #include "paths.h"
 #include "risorius/blendshapes/detail/mouth_shade.h"
 #include "risorius/face/surfaces.h"
@@ -24,7 +27,7 @@ class MorphHead : public testing::Test {
             std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs/adult/rig.json"));
         face_ = std::make_unique<face::Face>(files_->rig, files_->mesh,
                                              face::quality_named("preview"), files_->place());
-        model_ = std::make_unique<io::MorphModel>(morph_head(*files_, *face_, 256));
+        model_ = std::make_unique<io::MorphModel>(morph_head(*files_, *face_, 256, EyesBy::kBoth));
     }
     static void TearDownTestSuite() {
         model_.reset();
@@ -71,7 +74,7 @@ TEST_F(MorphHead, HasTheNamesThatOtherProgramsKnowAndAPictureForEachSubstance) {
     EXPECT_EQ(model_->pictures.size(), 6u);
     EXPECT_EQ(triangles, geom::triangulate(files_->mesh).rows());
     // Without pictures of the look, parts have colours, and each eye its iris.
-    const io::MorphModel plain = morph_head(*files_, *face_, 0);
+    const io::MorphModel plain = morph_head(*files_, *face_, 0, EyesBy::kBone);
     EXPECT_EQ(plain.pictures.size(), 1u);  // of the lashes, which are solid ribbons without it
     int eyes = 0;
     for (const io::MorphPart& part : plain.parts) eyes += part.tint.rows() > 0;
@@ -131,6 +134,40 @@ TEST_F(MorphHead, EyesTurnAboutTheirCentres) {
                 EXPECT_LT((centre + motions[0].turn[1] * from - posed.row(v).transpose()).norm(),
                           1e-9);
             }
+}
+
+TEST_F(MorphHead, EyesTurnByShapesOrByNodesAsAsked) {
+    track::Drive glance = drive();
+    at(glance, track::Kinematic::kGazeYawLeft) = 17.8;
+    const auto eye = [&](const io::MorphModel& model) {
+        return model.nodes[static_cast<std::size_t>(node("EyeLeft"))];
+    };
+    EXPECT_TRUE(eye(*model_).has_shapes);
+    const io::MorphModel morph = morph_head(*files_, *face_, 0, EyesBy::kMorph);
+    EXPECT_TRUE(eye(morph).animate_shapes);
+    EXPECT_TRUE(node_motions(morph, *face_, {drive(), glance}).empty());
+    io::MorphModel bone = morph_head(*files_, *face_, 0, EyesBy::kBone);
+    EXPECT_EQ(node_motions(bone, *face_, {drive(), glance}).size(), 1u);
+    // The file of "bone" has no target on the eyeballs, though a shape moves their vertices.
+    io::MorphTarget& look = bone.targets.emplace_back();
+    look.name = "eyeLookOutLeft";
+    for (long v = 0; v < bone.vertices.rows(); ++v) look.vertex.push_back(static_cast<int>(v));
+    look.delta = Points::Constant(bone.vertices.rows(), 3, 1e-3);
+    const auto targets_of_eyes = [&] {
+        const std::string bytes = io::glb_bytes(bone);
+        std::uint32_t length = 0;
+        std::memcpy(&length, bytes.data() + 12, sizeof length);
+        const Json parsed = Json::parse(bytes.substr(20, length));
+        std::map<std::string, bool> has;
+        for (const Json& mesh : parsed["meshes"])
+            has[mesh["name"]] = mesh["primitives"][0].contains("targets");
+        return has;
+    };
+    EXPECT_FALSE(targets_of_eyes().at("EyeLeft"));
+    EXPECT_TRUE(targets_of_eyes().at("Lashes"));
+    EXPECT_EQ(message_of([] { eyes_named("bones"); }),
+              "eyes: expected one of \"morph\", \"bone\", \"both\" (did you mean \"bone\"?), found "
+              "\"bones\"");
 }
 
 TEST_F(MorphHead, TheLowerTeethTellTheAxisOfTheJaw) {

@@ -54,6 +54,21 @@ for frame in frames:
     weights.append({b.name: b.value for b in keys.key_blocks if b.name != "Basis"})
 curves = keys.animation_data.action.fcurves
 whole = all(abs(p.co.x - round(p.co.x)) < 1e-4 for c in curves for p in c.keyframe_points)
+values = [
+    p.co.y
+    for a in bpy.data.actions
+    for c in a.fcurves
+    if c.data_path.startswith("key_blocks")
+    for p in c.keyframe_points
+]
+pictures = [i for i in bpy.data.images if i.packed_file]
+
+
+def has_picture(material):
+    """Whether a picture colours a material."""
+    return any(n.type == "TEX_IMAGE" and n.image for n in material.node_tree.nodes)
+
+
 meshes = {
     o.name: {
         "size_m": [
@@ -77,7 +92,13 @@ with open(out, "w") as file:
             "fps": scene.render.fps / scene.render.fps_base,
             "last_frame": scene.frame_end,
             "meshes": meshes,
-            "pictures": len([i for i in bpy.data.images if i.packed_file]),
+            "pictures": len(pictures),
+            "pictures_in_srgb": len([i for i in pictures if i.colorspace_settings.name == "sRGB"]),
+            "materials": {
+                m.name: has_picture(m) for o in bpy.data.objects if o.type == "MESH" for m in o.data.materials
+            },
+            "least_value": min(values, default=0),
+            "greatest_value": max(values, default=0),
             "whole_frames": whole,
             "weights": weights,
             "vertices": vertex_numbers(),

@@ -4,10 +4,14 @@
 Menu File, Import, "Risorius face (.glb)": shapes.glb of `risorius shapes`. The frame rate of the scene becomes that of the file,
 so that keys lie on whole frames. With "Drive correctives", each corrective follows the shapes by the rule in the file, so that
 sliders, and motion of your own, look as they do in Risorius; the keys of the correctives are removed, since they say the same.
-Correctives of `shapes --named-correctives` are driven by plain products, others by a function of this file.
+Correctives of `shapes --named-correctives` are driven by plain products, others by a function of this file. With "Camera and lights",
+the scene gets a camera before the face and three lights around it, so that it can be rendered at once.
 
 Menu File, Import, "Live Link Face (.csv)" or "Risorius script (.json)": motion for the selected face and its parts. The frame rate of
 the scene becomes that of the motion. The channels of the script have to be shapes of the face, such as those of ARKit.
+
+Menu File, Import, "Risorius maps (results.json)": the wrinkles that `shapes --maps` has written, for the selected face. Each normal map is
+multiplied by the weight of its shape.
 
 Menu File, Export, "Risorius script (.json)": the keys of the selected face as a script that `risorius render` plays.
 
@@ -17,11 +21,13 @@ The importer of glTF in Debian's Blender 3.4 uses numpy.bool, which numpy 1.24 n
 import csv
 import hashlib
 import json
+import os
 import struct
 
 import bpy
+import mathutils
 import numpy
-from bpy.props import BoolProperty, FloatProperty, StringProperty
+from bpy.props import BoolProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 bl_info = {
@@ -243,7 +249,7 @@ def put_in_place_of_empty(thing):
     return True
 
 
-def import_face(path, drivers=True):
+def import_face(path, drivers=True, stage=False):
     """Imports shapes.glb. Returns the object of the skin, and what is to be said about the correctives, or ""."""
     rule, fps = rule_of_glb(read_json_of_glb(path))
     scene = bpy.context.scene
@@ -269,7 +275,112 @@ def import_face(path, drivers=True):
         if left:
             note = "%d correctives keep their keys, since they follow too many shapes for a driver" % left
     bpy.context.view_layer.objects.active = face
+    if stage:
+        add_stage(face)
     return face, note
+
+
+def add_light(name, place, target, watt, size):
+    """An area light that shines from a place onto a target."""
+    light = bpy.data.lights.new(name, "AREA")
+    light.energy, light.size = watt, size
+    lamp = bpy.data.objects.new(name, light)
+    lamp.location = place
+    lamp.rotation_euler = (mathutils.Vector(target) - lamp.location).to_track_quat("-Z", "Y").to_euler()
+    bpy.context.scene.collection.objects.link(lamp)
+
+
+def add_stage(face):
+    """A camera before a face, as high as it is, and three lights around it. The face looks along -y."""
+    scene = bpy.context.scene
+    corners = [face.matrix_world @ mathutils.Vector(corner) for corner in face.bound_box]
+    low = [min(c[k] for c in corners) for k in range(3)]
+    high = [max(c[k] for c in corners) for k in range(3)]
+    height = high[2] - low[2]
+    middle = mathutils.Vector(((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2))
+    lens = bpy.data.cameras.new("Camera of " + face.name)
+    lens.lens, lens.sensor_fit, lens.clip_start = 85, "VERTICAL", 0.01
+    camera = bpy.data.objects.new(lens.name, lens)
+    camera.location = middle + mathutils.Vector((0, -4.4 * height, 0.02 * height))
+    camera.rotation_euler = (middle - camera.location).to_track_quat("-Z", "Y").to_euler()
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.resolution_x = scene.render.resolution_y = 1024
+    for name, place, watt, size in (
+        ("Key", (-1.5, -2.6, 1.6), 14, 1.2),
+        ("Fill", (2.2, -2.2, 0.3), 4, 2.0),
+        ("Rim", (1.4, 2.2, 1.8), 8, 1.0),
+    ):
+        offset = mathutils.Vector(place) * height
+        add_light(name, middle + offset, middle, watt * height**2 * 10, size * height)
+    if scene.world is None:
+        scene.world = bpy.data.worlds.new("World")
+    # Filmic, the default, makes the colours of pictures pale
+    scene.view_settings.view_transform = "Standard"
+
+
+FLAT = (128 / 255, 128 / 255, 1.0)  # the colour of a normal map without wrinkles
+
+
+def driven_value(tree, keys, name):
+    """A node with the weight of a shape."""
+    node = tree.nodes.new("ShaderNodeValue")
+    node.label = name
+    driver = node.outputs[0].driver_add("default_value").driver
+    driver.type = "AVERAGE"
+    target = driver.variables.new().targets[0]
+    target.id_type = "KEY"
+    target.id = keys
+    target.data_path = 'key_blocks["%s"].value' % name
+    return node
+
+
+def vector_math(tree, operation, *inputs):
+    """A node of vector arithmetic with inputs that are outputs of nodes, or vectors."""
+    node = tree.nodes.new("ShaderNodeVectorMath")
+    node.operation = operation
+    for slot, given in zip(node.inputs, inputs):
+        if isinstance(given, tuple):
+            slot.default_value = given
+        else:
+            tree.links.new(given, slot)
+    return node.outputs[0]
+
+
+def map_picture(tree, path):
+    """A node with a normal map."""
+    node = tree.nodes.new("ShaderNodeTexImage")
+    node.image = bpy.data.images.load(path, check_existing=True)
+    node.image.colorspace_settings.name = "Non-Color"
+    return node.outputs["Color"]
+
+
+def import_maps(path, face, most=24):
+    """Adds the deepest normal maps of `shapes --maps` to the material of the skin, each times the weight of its shape. Returns how many."""
+    with open(path, encoding="utf-8") as file:
+        maps = json.load(file).get("maps")
+    if not maps:
+        raise ValueError(path + ": expected results.json of shapes --maps, found none of its maps")
+    keys = face.data.shape_keys
+    found = [m for m in maps["shapes"] if m["normal"] and m["name"] in keys.key_blocks]
+    found = sorted(found, key=lambda m: -m["deepest_mm"])[:most]
+    skins = [m for m in face.data.materials if m and m.name.split(".")[0] == "Skin" and m.use_nodes]
+    if not found or not skins:
+        raise ValueError("expected a face with a material Skin and shapes of these maps, found none")
+    tree, folder = skins[0].node_tree, os.path.dirname(os.path.abspath(path))
+    total = FLAT
+    if maps.get("neutral_normal"):
+        total = map_picture(tree, os.path.join(folder, maps["neutral_normal"]))
+    for one in found:
+        turn = vector_math(tree, "SUBTRACT", map_picture(tree, os.path.join(folder, one["normal"])), FLAT)
+        weight = driven_value(tree, keys, one["name"]).outputs[0]
+        total = vector_math(tree, "MULTIPLY_ADD", turn, weight, total)
+    normal = tree.nodes.new("ShaderNodeNormalMap")
+    tree.links.new(total, normal.inputs["Color"])
+    for shader in tree.nodes:
+        if shader.type == "BSDF_PRINCIPLED":
+            tree.links.new(normal.outputs["Normal"], shader.inputs["Normal"])
+    return len(found)
 
 
 def parts_of(face):
@@ -400,9 +511,13 @@ class RISORIUS_OT_import_face(bpy.types.Operator, ImportHelper):
         name="Drive correctives", default=True, description="Correctives follow the shapes by drivers"
     )
 
+    stage: BoolProperty(
+        name="Camera and lights", default=False, description="A camera before the face, and three lights"
+    )
+
     def execute(self, context):
         try:
-            note = import_face(self.filepath, self.drivers)[1]
+            note = import_face(self.filepath, self.drivers, self.stage)[1]
             if note:
                 self.report({"WARNING"}, note)
         except (OSError, ValueError, RuntimeError) as error:
@@ -452,6 +567,19 @@ class RISORIUS_OT_import_script(bpy.types.Operator, ImportHelper):
         return with_face(self, context, read)
 
 
+class RISORIUS_OT_import_maps(bpy.types.Operator, ImportHelper):
+    bl_idname = "import_image.risorius_maps"
+    bl_label = "Import the wrinkles of a Risorius face"
+    filename_ext = ".json"
+    filter_glob: StringProperty(default="results.json", options={"HIDDEN"})
+    most: IntProperty(
+        name="Maps at most", default=24, min=1, description="Those of the deepest wrinkles. Eevee draws about 30 pictures in a material"
+    )
+
+    def execute(self, context):
+        return with_face(self, context, lambda face: import_maps(self.filepath, face, self.most))
+
+
 class RISORIUS_OT_export_script(bpy.types.Operator, ExportHelper):
     bl_idname = "export_anim.risorius_script"
     bl_label = "Export a Risorius script"
@@ -471,6 +599,7 @@ CLASSES = (
     RISORIUS_OT_import_face,
     RISORIUS_OT_import_motion,
     RISORIUS_OT_import_script,
+    RISORIUS_OT_import_maps,
     RISORIUS_OT_export_script,
 )
 
@@ -479,6 +608,7 @@ def _import_menu(menu, _):
     menu.layout.operator(RISORIUS_OT_import_face.bl_idname, text="Risorius face (.glb)")
     menu.layout.operator(RISORIUS_OT_import_motion.bl_idname, text="Live Link Face (.csv)")
     menu.layout.operator(RISORIUS_OT_import_script.bl_idname, text="Risorius script (.json)")
+    menu.layout.operator(RISORIUS_OT_import_maps.bl_idname, text="Risorius maps (results.json)")
 
 
 def _export_menu(menu, _):

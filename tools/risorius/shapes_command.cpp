@@ -182,10 +182,22 @@ void add_shapes(CLI::App& app) {
                      "keep those. 0: plain colours")
         ->capture_default_str();
     command
+        ->add_option("--eyes", options.eyes,
+                     "What turns the eyeballs in shapes.glb: \"morph\", their shapes eyeLook...; "
+                     "\"bone\", the nodes LeftEye and RightEye; \"both\", and the animation turns "
+                     "the nodes")
+        ->capture_default_str();
+    command
         ->add_option("--levels", options.levels,
                      "Number of coarser levels of detail to write, 0 to 4: shapes_lod1.glb and so "
                      "on, each with half the triangles of the one before, and the same shapes")
         ->check(CLI::Range(0, blendshapes::kMaxLevels))
+        ->capture_default_str();
+    command
+        ->add_option("--maps", options.maps_px,
+                     "Side in pixels (256 to 4096) of the maps of each shape on the texture of the "
+                     "skin: maps/NAME_compression.png and NAME_stretch.png, grey, and the wrinkles "
+                     "as NAME_normal.png. 0: none")
         ->capture_default_str();
     command->add_flag("--no-pictures", arguments->no_pictures,
                       "Write the accuracy report without pictures");

@@ -121,7 +121,8 @@ std::vector<std::string> write_models(const scene::RigFiles& files, const face::
     if (!glb && !usda) return {};
     io::MorphModel model =
         morph_model(files, face, report.shapes, report.set, report.correctives.rig,
-                    report.animation ? &*report.animation : nullptr, options.texture_px);
+                    report.animation ? &*report.animation : nullptr, options.texture_px,
+                    eyes_named(options.eyes));
     model.whole_numbers = options.compact;
     std::vector<std::string> written;
     const auto write = [&](const char* name, const std::string& bytes) {
@@ -214,6 +215,22 @@ std::vector<TrackError> compare_tracks(const scene::RigFiles& files, const Shape
     return out;
 }
 
+void check_options(const ShapesOptions& options) {
+    for (const std::string& format : options.formats)
+        index_of_name(option_name("formats"), format, shape_formats());
+    constexpr int kMin_px = 256, kMax_px = 4096;
+    for (const auto& [name, px] :
+         {std::pair{"texture_px", options.texture_px}, {"maps_px", options.maps_px}})
+        if (px != 0 && (px < kMin_px || px > kMax_px))
+            throw Error(option_name(name),
+                        "0 or " + std::to_string(kMin_px) + ".." + std::to_string(kMax_px),
+                        std::to_string(px));
+    if (options.levels < 0 || options.levels > kMaxLevels)
+        throw Error(option_name("levels"), "0.." + std::to_string(kMaxLevels),
+                    std::to_string(options.levels));
+    eyes_named(options.eyes);
+}
+
 }  // namespace
 
 const std::vector<std::string>& shape_formats() {
@@ -241,41 +258,34 @@ Json ShapesReport::json() const {
                                        {"surface_mm", 1e3 * error.surface_m},
                                        {"shape_rms_mm", 1e3 * error.shape_rms_m},
                                        {"shape_max_mm", 1e3 * error.shape_max_m}}));
-    return json_object({{"format", "risorius-shapes-certificate"},
-                        {"version", 1},
-                        {"name", name},
-                        {"rig", rig},
-                        {"set", set},
-                        {"quality", quality},
-                        {"vertices", vertices},
-                        {"nodes", nodes},
-                        {"mirrored", shapes.mirrored},
-                        {"limits", json_object({{"volume_change", limits.volume_ratio},
-                                                {"penetration_mm", 1e3 * limits.penetration_m},
-                                                {"lid_gap_mm", 1e3 * limits.lid_gap_m},
-                                                {"rigid_part_mm", 1e3 * limits.rigid_part_m},
-                                                {"asymmetry_mm", 1e3 * limits.asymmetry_m}})},
-                        {"beyond_limits", complaints()},
-                        {"worst", worst_of(shapes)},
-                        {"shapes", list},
-                        {"linear_rig", tracks_json(tracks)},
-                        {"correctives", correctives_json(correctives)},
-                        {"left_out", left},
-                        {"levels", coarser},
-                        {"bytes", bytes}});
+    Json out = json_object({{"format", "risorius-shapes-certificate"},
+                            {"version", 1},
+                            {"name", name},
+                            {"rig", rig},
+                            {"set", set},
+                            {"quality", quality},
+                            {"vertices", vertices},
+                            {"nodes", nodes},
+                            {"mirrored", shapes.mirrored},
+                            {"limits", json_object({{"volume_change", limits.volume_ratio},
+                                                    {"penetration_mm", 1e3 * limits.penetration_m},
+                                                    {"lid_gap_mm", 1e3 * limits.lid_gap_m},
+                                                    {"rigid_part_mm", 1e3 * limits.rigid_part_m},
+                                                    {"asymmetry_mm", 1e3 * limits.asymmetry_m}})},
+                            {"beyond_limits", complaints()},
+                            {"worst", worst_of(shapes)},
+                            {"shapes", list},
+                            {"linear_rig", tracks_json(tracks)},
+                            {"correctives", correctives_json(correctives)},
+                            {"left_out", left},
+                            {"levels", coarser},
+                            {"bytes", bytes}});
+    if (maps) out["maps"] = maps->json();
+    return out;
 }
 
 ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& monitor) {
-    for (const std::string& format : options.formats)
-        index_of_name(option_name("formats"), format, shape_formats());
-    constexpr int kMin_px = 256, kMax_px = 4096;
-    if (options.texture_px != 0 && (options.texture_px < kMin_px || options.texture_px > kMax_px))
-        throw Error(option_name("texture_px"),
-                    "0 or " + std::to_string(kMin_px) + ".." + std::to_string(kMax_px),
-                    std::to_string(options.texture_px));
-    if (options.levels < 0 || options.levels > kMaxLevels)
-        throw Error(option_name("levels"), "0.." + std::to_string(kMaxLevels),
-                    std::to_string(options.levels));
+    check_options(options);
     const scene::RigFiles files = scene::read_rig_files(options.rig, monitor.stopped);
     const ShapeSet set = shape_set(files.rig, options.set, options.only, files.place());
     report::AtomicFolder folder(options.out);
@@ -340,6 +350,12 @@ ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& mo
     if (wants(options, "table"))
         keep(write_shape_table(files, head, report.shapes, folder.partial()));
     if (wants(options, "obj")) keep(write_shape_objs(files, head, report.shapes, folder.partial()));
+    if (options.maps_px > 0) {
+        report.maps =
+            write_shape_maps(files, solver.face(), report.shapes, options.maps_px, folder.partial(),
+                             options.threads, monitor.subrange(compared, compared));
+        keep(report.maps->files());
+    }
 
     // Files for people
     std::optional<ShapesPictures> pictures;

@@ -12,6 +12,7 @@
 #include "risorius/blendshapes/detail/make_shapes.h"
 #include "risorius/blendshapes/detail/shape_animation.h"
 #include "risorius/blendshapes/detail/shape_correctives.h"
+#include "risorius/blendshapes/detail/shape_maps.h"
 #include "risorius/core/json_cursor.h"
 #include "risorius/core/progress_monitor.h"
 #include "risorius/io/level_error.h"
@@ -32,6 +33,8 @@ struct ShapesOptions {
     /// Side of the picture of the skin in the .glb, 256 to 4096; those of the other parts have half of it. 0: plain colours.
     /// Parts with pictures of the mesh keep those.
     int texture_px = 1024;
+    std::string eyes =
+        "both";  ///< what turns the eyeballs in the .glb: "morph", "bone" or "both", see morph_head.h
     /// Number of coarser levels of detail to write, 0 to kMaxLevels; each has half the triangles of the one before
     int levels = 0;
     bool pictures = true;
@@ -45,6 +48,7 @@ struct ShapesOptions {
     int test_frames = 24;
     std::filesystem::path script = {};  ///< script that is converted to weights; empty: none
     bool head_turns = false;            ///< true: caches have the motion of head and eyes too
+    int maps_px = 0;  ///< side of the maps of each shape (shape_maps.h), 256 to 4096; 0: none
     int threads = 0;  ///< 0: as many as the machine has; results do not depend on it
 };
 
@@ -63,6 +67,7 @@ struct ShapesReport {
     std::vector<std::pair<std::string, std::string>> left_out;  ///< name and reason
     /// Coarser levels of detail: file, and its error against shapes.glb
     std::vector<std::pair<std::string, io::LevelError>> levels;
+    std::optional<MapsReport> maps;
     int vertices = 0, nodes = 0;
     double solving_s = 0;                             ///< wall time
     std::vector<std::pair<std::string, long>> sizes;  ///< file, bytes

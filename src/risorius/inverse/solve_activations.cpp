@@ -311,11 +311,11 @@ FitTarget solve_as_units(face::FaceTeam& team, const scene::RigFiles& files,
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     const UnitBench bench(team, sources, vertices);
-    UnitState rest = bench.rest(files, options.quality, monitor.subrange(0, 0.3));
+    std::vector<UnitState> known = bench.known(files, options.quality, monitor.subrange(0, 0.3));
     const FitTarget given =
         given_landmarks(options.landmarks, options.fps, points,
-                        largest_motions(points, vertices, rest.way), head.vertices.rows());
-    UnitSolution found = solve_units(bench, given, std::move(rest), {}, monitor.subrange(0.3, 1));
+                        largest_motions(points, vertices, known[0].way), head.vertices.rows());
+    UnitSolution found = solve_units(bench, given, std::move(known), {}, monitor.subrange(0.3, 1));
     if (found.curves.empty())
         throw Error(options.landmarks.string(), "landmarks that move as an action unit does",
                     "none that does");

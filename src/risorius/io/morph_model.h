@@ -62,6 +62,7 @@ struct MorphNode {
     Vec3 place = Vec3::Zero();   ///< of its origin at rest, head frame, m
     Json extras = {};            ///< null or an object
     bool animate_shapes = true;  ///< false: animations leave the weights of its mesh at 0
+    bool has_shapes = true;      ///< false: its mesh has no targets
 };
 
 /// The vertices of one node, carried by joints: the mean of the places to which the joints carry a vertex.

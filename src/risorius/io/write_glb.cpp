@@ -279,7 +279,8 @@ class GlbWriter {
             mesh.primitives.push_back(primitive(p));
         }
         if (made.parts.empty()) return;
-        made.targets = targets_of(model_, is_here, meshes_.empty());
+        if (nodes_[static_cast<std::size_t>(node)].has_shapes)
+            made.targets = targets_of(model_, is_here, meshes_.empty());
         mesh.weights.assign(made.targets.size(), 0.0);
         Json extras = meshes_.empty() && model_.extras.is_object() ? model_.extras : Json::object();
         if (!made.targets.empty() || meshes_.empty()) extras["targetNames"] = Json::array();

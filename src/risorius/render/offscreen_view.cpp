@@ -35,8 +35,8 @@
 #include "risorius/render/detail/socket_layer.h"
 #include "risorius/render/detail/strand_layer.h"
 #include "risorius/render/detail/tear_layer.h"
-#include "risorius/render/detail/texture_square.h"
 #include "risorius/render/detail/worn_layer.h"
+#include "risorius/render/texture_square.h"
 #include "risorius/render/value_colour.h"
 
 namespace risorius::render {

@@ -46,10 +46,10 @@ Triangles skin_of(const render::Scene& scene) {
     return skin;
 }
 
-}  // namespace
-
-std::vector<double> principal_strain(const Triangles& skin, const Points& rest,
-                                     const Points& positions) {
+/// The mean at each vertex of one number of the two principal strains of its triangles.
+template <class Choose>
+std::vector<double> mean_strain(const Triangles& skin, const Points& rest, const Points& positions,
+                                const Choose& choose) {
     const auto count = static_cast<std::size_t>(rest.rows());
     std::vector<double> sum(count, 0), weight(count, 0);
     for (Eigen::Index f = 0; f < skin.rows(); ++f) {
@@ -68,9 +68,8 @@ std::vector<double> principal_strain(const Triangles& skin, const Points& rest,
             (x2.squaredNorm() - 2 * b / a * x1.dot(x2) + b * b / (a * a) * x1.squaredNorm()) /
             (h * h);
         const double middle = (c11 + c22) / 2, spread = std::hypot((c11 - c22) / 2, c12);
-        const double max = std::sqrt(middle + spread) - 1,
-                     min = std::sqrt(std::max(0.0, middle - spread)) - 1;
-        const double strain = std::abs(max) >= std::abs(min) ? max : min;
+        const double strain =
+            choose(std::sqrt(std::max(0.0, middle - spread)) - 1, std::sqrt(middle + spread) - 1);
         for (int k = 0; k < 3; ++k) {
             const auto v = static_cast<std::size_t>(skin(f, k));
             sum[v] += area * strain;
@@ -80,6 +79,23 @@ std::vector<double> principal_strain(const Triangles& skin, const Points& rest,
     for (std::size_t v = 0; v < count; ++v)
         sum[v] = weight[v] > 0 ? sum[v] / weight[v] : std::numeric_limits<double>::quiet_NaN();
     return sum;
+}
+
+}  // namespace
+
+StrainRange strain_range(const Triangles& skin, const Points& rest, const Points& positions) {
+    StrainRange out;
+    out.least = mean_strain(skin, rest, positions, [](double least, double) { return least; });
+    out.greatest =
+        mean_strain(skin, rest, positions, [](double, double greatest) { return greatest; });
+    return out;
+}
+
+std::vector<double> principal_strain(const Triangles& skin, const Points& rest,
+                                     const Points& positions) {
+    return mean_strain(skin, rest, positions, [](double least, double greatest) {
+        return std::abs(greatest) >= std::abs(least) ? greatest : least;
+    });
 }
 
 Visualization::Visualization(render::Show show, const render::Scene& scene, const rig::Head& head,

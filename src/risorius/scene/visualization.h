@@ -23,6 +23,12 @@ namespace risorius::scene {
 std::vector<double> principal_strain(const Triangles& skin, const Points& rest,
                                      const Points& positions);
 
+/// Both principal strains of the skin at each vertex, means as above.
+struct StrainRange {
+    std::vector<double> least, greatest;
+};
+StrainRange strain_range(const Triangles& skin, const Points& rest, const Points& positions);
+
 /// The additions for one value of render::Show.
 class Visualization {
   public:

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "risorius/core/error.h"
+#include "risorius/core/known_names.h"
 #include "risorius/core/read_file.h"
 #include "risorius/core/rotations.h"
 #include "risorius/core/version.h"
@@ -64,7 +65,8 @@ const char* node_of(Carrier carrier) {
     return kFace;
 }
 
-void add_nodes(const scene::RigFiles& files, const face::Face& face, io::MorphModel& model) {
+void add_nodes(const scene::RigFiles& files, const face::Face& face, EyesBy eyes,
+               io::MorphModel& model) {
     const rig::Head& head = face.head();
     const Vec3 pivot = face.surfaces().head_pivot();
     const auto add = [&](const char* name, const char* parent, const Vec3& place) {
@@ -89,7 +91,9 @@ void add_nodes(const scene::RigFiles& files, const face::Face& face, io::MorphMo
         if (eye.present) add(kPivots[side], kHead, centre);
         const int node = add(ball, eye.present ? kPivots[side] : kHead, centre);
         // Turned by their pivots, so their shapes rest: never both
-        model.nodes[static_cast<std::size_t>(node)].animate_shapes = !eye.present;
+        io::MorphNode& made = model.nodes[static_cast<std::size_t>(node)];
+        made.animate_shapes = !eye.present || eyes == EyesBy::kMorph;
+        made.has_shapes = !eye.present || eyes != EyesBy::kBone;
     }
     for (const Carrier carrier :
          {Carrier::kSkull, Carrier::kMandible, Carrier::kTongue, Carrier::kLashes})
@@ -362,12 +366,19 @@ class PartMaker {
 
 }  // namespace
 
-io::MorphModel morph_head(const scene::RigFiles& files, const face::Face& face, int texture_px) {
+EyesBy eyes_named(const std::string& name) {
+    constexpr std::array kAll{EyesBy::kMorph, EyesBy::kBone, EyesBy::kBoth};
+    return kAll.at(static_cast<std::size_t>(
+        index_of_name(option_name("eyes"), name, {"morph", "bone", "both"})));
+}
+
+io::MorphModel morph_head(const scene::RigFiles& files, const face::Face& face, int texture_px,
+                          EyesBy eyes) {
     io::MorphModel model;
     model.name = files.rig.name;
     model.vertices = face.head().vertices;
     model.stands_for = face.head().welded;
-    add_nodes(files, face, model);
+    add_nodes(files, face, eyes, model);
     PartMaker(files, face.head(), texture_px, model).add_all();
     return model;
 }
@@ -427,7 +438,14 @@ std::vector<io::NodeMotion> node_motions(const io::MorphModel& model, const face
                 Mat3(pose.head.linear().transpose() * pose.eye_rotation[side]));
     }
     std::vector<io::NodeMotion> out;
-    for (io::NodeMotion* motion : {&neck, &head, &eyes[0], &eyes[1]}) {
+    std::vector<io::NodeMotion*> motions{&neck, &head};
+    for (const std::size_t side : {0u, 1u}) {
+        const int ball =
+            node_named(model, node_of(side == 0 ? Carrier::kEyeLeft : Carrier::kEyeRight));
+        if (!model.nodes[static_cast<std::size_t>(ball)].animate_shapes)
+            motions.push_back(&eyes[side]);
+    }
+    for (io::NodeMotion* motion : motions) {
         const bool turns = std::any_of(motion->turn.begin(), motion->turn.end(), [](const auto& q) {
             return q.angularDistance(Eigen::Quaterniond::Identity()) > 0;
         });

@@ -12,6 +12,7 @@
 /// Joints blend linearly, which shortens the neck by 2 % at 45 degrees.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "risorius/face/face.h"
@@ -21,16 +22,22 @@
 
 namespace risorius::blendshapes {
 
+/// What turns the eyeballs: morph targets, the pivots LeftEye and RightEye, or both, of which animations use the pivots alone.
+enum class EyesBy { kMorph, kBone, kBoth };
+EyesBy eyes_named(const std::string& name);  ///< "morph", "bone", "both"; throws Error
+
 /// Returns the model without shapes. Each part has the pictures of the mesh where it has some, else one of the look with
 /// `texture_px` pixels along its side (half of that for all but the skin), else, with 0 or without texture coordinates, a colour.
-io::MorphModel morph_head(const scene::RigFiles& files, const face::Face& face, int texture_px);
+io::MorphModel morph_head(const scene::RigFiles& files, const face::Face& face, int texture_px,
+                          EyesBy eyes);
 
 /// Describes the turn of the lower teeth by the shape jawOpen in the extras of the node TeethLower, for programs that turn them
 /// with a joint instead: "jaw" has the shape, a pivot on the axis (m, at rest), the axis, and the angle and the slide along the
 /// axis at weight 1. Call it when the model has its targets; without that shape it does nothing.
 void describe_jaw(io::MorphModel& model);
 
-/// Returns the turns of head, neck and eyes of such a model, one per drive; only of those that turn at all.
+/// Returns the turns of head, neck and, unless morph targets turn them, eyes of such a model, one per drive; only of those that turn at
+/// all.
 std::vector<io::NodeMotion> node_motions(const io::MorphModel& model, const face::Face& face,
                                          const std::vector<track::Drive>& drives);
 

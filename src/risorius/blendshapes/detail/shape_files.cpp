@@ -49,9 +49,9 @@ double shortened(double value) {
 io::MorphModel morph_model(const scene::RigFiles& files, const face::Face& face,
                            const MadeShapes& shapes, const std::string& set,
                            const blendshapes::BlendShapeRig& linear,
-                           const ShapeAnimation* animation, int texture_px) {
+                           const ShapeAnimation* animation, int texture_px, EyesBy eyes) {
     const rig::Head& head = face.head();
-    io::MorphModel model = morph_head(files, face, texture_px);
+    io::MorphModel model = morph_head(files, face, texture_px, eyes);
     for (const MadeShape& made : shapes.list)
         model.targets.push_back({made.goal.name, made.shape.vertex, made.shape.delta});
     shade_mouth(head, model);

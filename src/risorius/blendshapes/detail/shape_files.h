@@ -9,6 +9,7 @@
 
 #include "risorius/blendshapes/detail/blend_shape_rig.h"
 #include "risorius/blendshapes/detail/make_shapes.h"
+#include "risorius/blendshapes/detail/morph_head.h"
 #include "risorius/blendshapes/detail/shape_animation.h"
 #include "risorius/face/face.h"
 #include "risorius/io/morph_model.h"
@@ -22,7 +23,7 @@ namespace risorius::blendshapes {
 io::MorphModel morph_model(const scene::RigFiles& files, const face::Face& face,
                            const MadeShapes& shapes, const std::string& set,
                            const blendshapes::BlendShapeRig& linear,
-                           const ShapeAnimation* animation, int texture_px);
+                           const ShapeAnimation* animation, int texture_px, EyesBy eyes);
 
 /// Writes every vertex in every frame of the animation, in mesh units, computed with the blend shape rig. `head_turns`: with the
 /// motion of head and eyes, as in a video, instead of by shapes alone. Of `formats`, "cache" is

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/inverse/detail/unit_bench.h"
 
+#include <array>
 #include <set>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 #include "risorius/blendshapes/shape_player.h"
@@ -20,6 +22,11 @@ constexpr double kTolerated_m = 5e-5, kPlanesMove_m = 1e-4;  // as for blend sha
 constexpr double kUnitAt = 0.7, kMuscleAt = 0.3;
 constexpr double kShared_mm = 15;  // half width of the strip in the middle that both sides share
 constexpr double kProbe = 0.5;
+constexpr int kWalks = 2;
+// What faces show most, and how strongly
+constexpr std::array kUsual{"happiness", "sadness",  "anger", "fear",          "disgust",
+                            "surprise",  "contempt", "pain",  "embarrassment", "smile_amused"};
+constexpr std::array kUsualAt{0.45, 0.85};
 
 }  // namespace
 
@@ -30,10 +37,20 @@ Points UnitBench::at_rest() const { return team_.first().head().vertices(vertice
 
 void UnitBench::go_to(face::Face& face, const Eigen::VectorXd& weight,
                       const ProgressMonitor& monitor) const {
-    const track::Drive drive = sources_.drive_of(weight);
     track::Drive rest;
-    rest.excitation = Eigen::VectorXd::Zero(drive.excitation.size());
+    rest.excitation = Eigen::VectorXd::Zero(sources_.drive_of(weight).excitation.size());
     face.start([&](double) { return rest; });
+    go_on_to(face, weight, monitor);
+}
+
+Eigen::VectorXd UnitBench::displacement(const Points& vertices) const {
+    const Points moved = vertices(vertices_, Eigen::all) - at_rest();
+    return Eigen::Map<const Eigen::VectorXd>(moved.data(), moved.size());
+}
+
+void UnitBench::go_on_to(face::Face& face, const Eigen::VectorXd& weight,
+                         const ProgressMonitor& monitor) const {
+    const track::Drive drive = sources_.drive_of(weight);
     face.solve_equilibrium(drive.excitation, drive,
                            {.iterations = kMostIterations,
                             .tolerance_m = kTolerated_m,
@@ -42,9 +59,33 @@ void UnitBench::go_to(face::Face& face, const Eigen::VectorXd& weight,
     monitor.throw_if_stopped();
 }
 
-Eigen::VectorXd UnitBench::displacement(const Points& vertices) const {
-    const Points moved = vertices(vertices_, Eigen::all) - at_rest();
-    return Eigen::Map<const Eigen::VectorXd>(moved.data(), moved.size());
+Eigen::VectorXd UnitBench::Walk::moved(const Eigen::VectorXd& weight,
+                                       const ProgressMonitor& monitor) {
+    face::Face& face = bench_.team_.first();
+    if (begun_)
+        bench_.go_on_to(face, weight, monitor);
+    else
+        bench_.go_to(face, weight, monitor);
+    begun_ = true;
+    return bench_.displacement(face.pose().vertices);
+}
+
+std::vector<Eigen::VectorXd> UnitBench::moved_in_turn(const std::vector<Eigen::VectorXd>& weights,
+                                                      const ProgressMonitor& monitor) const {
+    std::vector<Eigen::VectorXd> out(weights.size());
+    team_.each(kWalks, [&](int piece, face::Face& face) {
+        const auto end_of = [&](int p) {
+            return weights.size() * static_cast<std::size_t>(p) / kWalks;
+        };
+        for (std::size_t i = end_of(piece); i < end_of(piece + 1); ++i) {
+            if (i == end_of(piece))
+                go_to(face, weights[i], monitor);
+            else
+                go_on_to(face, weights[i], monitor);
+            out[i] = displacement(face.pose().vertices);
+        }
+    });
+    return out;
 }
 
 std::vector<Eigen::VectorXd> UnitBench::moved(const std::vector<Eigen::VectorXd>& weights,
@@ -60,12 +101,17 @@ std::vector<Eigen::VectorXd> UnitBench::moved(const std::vector<Eigen::VectorXd>
     return out;
 }
 
-UnitState UnitBench::state(const Eigen::VectorXd& weight, const ProgressMonitor& monitor) const {
+UnitState UnitBench::state(const Eigen::VectorXd& weight, const std::vector<bool>& wanted,
+                           const ProgressMonitor& monitor) const {
     std::vector<track::Expansion> changes;
     std::set<int> columns;
     std::set<track::Kinematic> channels;
     for (long s = 0; s < sources_.count(); ++s) {
         changes.push_back(sources_.change_of(static_cast<std::size_t>(s), weight[s]));
+        if (!wanted.empty() && !wanted[static_cast<std::size_t>(s)]) {
+            changes.back().excitation.setZero();
+            changes.back().kinematic = {};
+        }
         for (long c = 0; c < changes.back().excitation.size(); ++c)
             if (changes.back().excitation[c] != 0) columns.insert(static_cast<int>(c));
         for (std::size_t k = 0; k < changes.back().kinematic.size(); ++k)
@@ -132,15 +178,23 @@ Eigen::MatrixXd UnitBench::unit_shapes(const ProgressMonitor& monitor) const {
     return out;
 }
 
-UnitState UnitBench::rest(const scene::RigFiles& files, const std::string& quality,
-                          const ProgressMonitor& monitor) const {
+std::vector<Eigen::VectorXd> UnitBench::usual_weights(const scene::RigFiles& files) const {
+    std::vector<Eigen::VectorXd> out;
+    for (const char* name : kUsual)
+        if (const track::Expression* one = files.rig.expressions.find(name))
+            for (const double intensity : kUsualAt)
+                out.push_back(sources_.weights_of(one->parts, intensity));
+    return out;
+}
+
+std::string UnitBench::key_of(const scene::RigFiles& files, const std::string& quality) const {
     // The forces of all muscles, and of tissue that is stretched, stand for whatever the face is made of.
     face::Face& face = team_.first();
     track::Drive drive;
     drive.excitation = Eigen::VectorXd::Zero(files.rig.channels().column_count());
     face.start([&](double) { return drive; });
     const Points nodes = face.statics().nodes();
-    CacheKey key("inverse/unit_shapes");
+    CacheKey key("inverse/known_units");
     key.add(read_file(files.file, {"a rig", kMegabyte * 100})).add(quality).add(vertices_);
     key.add(face.head().vertices);
     key.add(face.statics().gradient(
@@ -151,22 +205,53 @@ UnitState UnitBench::rest(const scene::RigFiles& files, const std::string& quali
             sources_.drive_of(kUnitAt * Eigen::VectorXd::Unit(sources_.count(), s));
         key.add(full.excitation).add(full.kinematic);
     }
+    for (const Eigen::VectorXd& weights : usual_weights(files)) key.add(weights);
+    return key.finish();
+}
+
+std::vector<UnitState> UnitBench::known(const scene::RigFiles& files, const std::string& quality,
+                                        const ProgressMonitor& monitor) const {
+    // One after the other: the weights of a state, what they move, and the derivatives.
     struct Kept {
-        Eigen::MatrixXd shapes;
+        std::vector<double> numbers;
     };
+    const auto keep = [](const UnitState& state, Kept& kept) {
+        for (const Eigen::MatrixXd& part :
+             {Eigen::MatrixXd(state.weight), Eigen::MatrixXd(state.moved), state.way})
+            kept.numbers.insert(kept.numbers.end(), part.data(), part.data() + part.size());
+    };
+    const long sources = sources_.count(), rows = 3 * static_cast<long>(vertices_.size());
+    const auto one = static_cast<std::size_t>(sources + rows + rows * sources);
+    const std::vector<Eigen::VectorXd> usual = usual_weights(files);
     const Kept kept = cached_result(
-        key.finish(), [&] { return Kept{unit_shapes(monitor)}; },
+        key_of(files, quality),
+        [&] {
+            Kept made;
+            constexpr double kShapes = 0.3;
+            keep({Eigen::VectorXd::Zero(sources), Eigen::VectorXd::Zero(rows),
+                  unit_shapes(monitor.subrange(0, kShapes))},
+                 made);
+            for (std::size_t i = 0; i < usual.size(); ++i) {
+                monitor.report(kShapes + (1 - kShapes) * static_cast<double>(i) /
+                                             static_cast<double>(usual.size()),
+                               "usual expressions");
+                keep(state(usual[i], {}, {.progress = {}, .stopped = monitor.stopped}), made);
+            }
+            return made;
+        },
         [&](Kept& result, const auto& visit) {
-            std::vector<double> numbers(result.shapes.data(),
-                                        result.shapes.data() + result.shapes.size());
-            visit(numbers);
-            result.shapes = Eigen::Map<const Eigen::MatrixXd>(
-                numbers.data(),
-                sources_.count() > 0 ? static_cast<long>(numbers.size()) / sources_.count() : 0,
-                sources_.count());
+            visit(result.numbers);
+            if (result.numbers.size() != one * (usual.size() + 1))
+                throw std::out_of_range("states of units");
         });
-    return {Eigen::VectorXd::Zero(sources_.count()), Eigen::VectorXd::Zero(kept.shapes.rows()),
-            kept.shapes};
+    std::vector<UnitState> out;
+    for (std::size_t i = 0; i < kept.numbers.size(); i += one) {
+        const double* at = &kept.numbers[i];
+        out.push_back({Eigen::Map<const Eigen::VectorXd>(at, sources),
+                       Eigen::Map<const Eigen::VectorXd>(at + sources, rows),
+                       Eigen::Map<const Eigen::MatrixXd>(at + sources + rows, rows, sources)});
+    }
+    return out;
 }
 
 }  // namespace risorius::inverse

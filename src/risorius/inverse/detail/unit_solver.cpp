@@ -20,24 +20,27 @@ constexpr double kKeep = 1e-5;     // of squared differences from the weights of
 constexpr double kGain = 0.9;      // of what was left; with less a search ends
 constexpr double kMuscleCost = 4;  // relative to a unit
 constexpr double kNearEnough =
-    1.5;  // a choice with less left, relative to the least gain of a unit, is not made again
-constexpr int kCorrections = 6, kCloseChoices = 3, kRounds = 3, kTangents = 4, kChecks = 3,
-              kSweeps = 3;
+    2.5;  // a choice with less left, relative to the least gain of a unit, is not made again
+constexpr int kCorrections = 6, kCloseChoices = 2, kChoices = 3, kRounds = 3, kTangents = 4,
+              kChecks = 2, kSweeps = 3;
 constexpr double kSmooth =
-    1e-4;                     // of squared differences from the mean of the neighbours of a frame
-constexpr int kMostTops = 4;  // frames that decide which units there are
-constexpr double kExplained = 0.15;  // a frame of which more is left decides, too
+    1e-4;  // of squared differences from the mean of the neighbours of a frame
+constexpr std::size_t kRivals = 16;
+constexpr int kFramesForOne = 10, kLeastFrames = 3;  // for one that is simulated; at least
+constexpr int kMostTops = 4;                         // frames that decide which units there are
+constexpr double kExplained = 0.15;                  // a frame of which more is left decides, too
 
 class UnitSolver {
   public:
-    UnitSolver(const UnitBench& bench, const FitTarget& given, UnitState rest,
+    UnitSolver(const UnitBench& bench, const FitTarget& given, std::vector<UnitState> known,
                const UnitSolveOptions& options, const ProgressMonitor& monitor)
         : bench_(bench),
           options_(options),
           monitor_(monitor),
           times_s_(given.times_s),
           root_(roots_of(bench, given)),
-          model_(weighted(std::move(rest))) {
+          model_(weighted(std::move(known.at(0)))) {
+        for (std::size_t k = 1; k < known.size(); ++k) model_.add(weighted(std::move(known[k])));
         const std::vector<int>& vertices = bench.vertices();
         points_ = root_.squaredNorm() / 3;
         target_.resize(root_.size(), static_cast<long>(given.fields.size()));
@@ -67,6 +70,7 @@ class UnitSolver {
         make_channels();
         if (channels_.empty()) return out;
         find_keys();
+        if (channels_.empty()) return out;
         const std::vector<long> checked = some_frames();
         // Where the model was off, the new equilibria correct it. The last ones are those of the script as it is written.
         for (int round = 0; round < kChecks; ++round) {
@@ -147,27 +151,33 @@ class UnitSolver {
         const std::vector<bool> before = active_;
         Eigen::VectorXd w = Eigen::VectorXd::Zero(bench_.sources().count());
         UnitChoice best;
+        UnitBench::Walk walk(bench_);
         double least = std::numeric_limits<double>::infinity();
         const auto choose = [&] {
-            const UnitChoice choice = choose_units(model_.tangent(w), goal, bench_.sources(),
-                                                   {.most = options_.most,
-                                                    .unit_cost = cost,
-                                                    .muscle_cost = kMuscleCost * cost,
-                                                    .price = kSmallPrice});
-            active_ = choice.active;
-            w = choice.weight;
+            // What is known of the rig near the first choice may tell a better one.
+            for (int round = 0; round < kChoices; ++round) {
+                const UnitChoice choice = choose_units(model_.tangent(w), goal, bench_.sources(),
+                                                       {.most = options_.most,
+                                                        .unit_cost = cost,
+                                                        .muscle_cost = kMuscleCost * cost,
+                                                        .price = kSmallPrice});
+                const bool same = choice.active == active_;
+                active_ = choice.active;
+                w = fitted(goal, choice.weight);
+                if (same) break;
+            }
             // A new choice is judged after a correction.
             double last = std::numeric_limits<double>::infinity();
             for (int round = 0; round < kCorrections; ++round) {
                 if (round > 0) w = fitted(goal, w);
-                const double left = simulate_one(w, goal);
+                const double left = simulate_one(w, goal, walk);
                 const bool ends = left > kGain * last;
                 last = left;
                 if (left < least) {
                     least = left;
                     best = {active_, w, left};
                 }
-                if (ends) break;
+                if (ends || left < options_.least_gain_m) break;
             }
         };
         choose();
@@ -175,16 +185,17 @@ class UnitSolver {
         for (int round = 0; round < kCloseChoices && least > kNearEnough * options_.least_gain_m;
              ++round) {
             w = best.weight;
-            model_.add(weighted(bench_.state(w, quiet())));
+            add_state(w, goal);
+            walk.restart();
             const double last_least = least;
             choose();
             if (least > kGain * last_least) break;
         }
         active_ = best.active;
         w = best.weight;
-        for (int round = 0; round < kRounds; ++round) {
+        for (int round = 0; round < kRounds && least > options_.least_gain_m; ++round) {
             w = fitted(goal, w);
-            const double left = simulate_one(w, goal);
+            const double left = simulate_one(w, goal, walk);
             if (left < options_.least_gain_m || left > kGain * least) break;
             least = left;
         }
@@ -193,9 +204,30 @@ class UnitSolver {
         weight_.col(frame) = w;
     }
 
+    /// Adds the equilibrium under weights to the model with its derivatives: by the sources that are used, and by those of which a little
+    /// would help most. Of all others the model has good ones.
+    void add_state(const Eigen::VectorXd& w, const Eigen::VectorXd& goal) {
+        const UnitModel::Tangent now = model_.tangent(w);
+        const Eigen::VectorXd left = goal - now.at_zero - now.way * w;
+        std::vector<std::pair<double, std::size_t>> help;
+        for (std::size_t s = 0; s < active_.size(); ++s) {
+            const auto way = now.way.col(static_cast<long>(s));
+            help.emplace_back(-std::pow(way.dot(left), 2) / std::max(way.squaredNorm(), 1e-30), s);
+        }
+        std::sort(help.begin(), help.end());
+        std::vector<bool> wanted = active_;
+        for (std::size_t i = 0; i < std::min(help.size(), kRivals); ++i)
+            wanted[help[i].second] = true;
+        UnitState state = weighted(bench_.state(w, wanted, quiet()));
+        for (std::size_t s = 0; s < wanted.size(); ++s)
+            if (!wanted[s]) state.way.col(static_cast<long>(s)) = now.way.col(static_cast<long>(s));
+        model_.add(std::move(state));
+    }
+
     /// Adds the equilibrium under weights to the model. Returns the RMS distance from the goal, m.
-    double simulate_one(const Eigen::VectorXd& w, const Eigen::VectorXd& goal) {
-        const Eigen::VectorXd moved = root_.asDiagonal() * bench_.moved({w}, quiet())[0];
+    double simulate_one(const Eigen::VectorXd& w, const Eigen::VectorXd& goal,
+                        UnitBench::Walk& walk) {
+        const Eigen::VectorXd moved = root_.asDiagonal() * walk.moved(w, quiet());
         model_.add(w, moved);
         return rms_of(moved - goal);
     }
@@ -221,12 +253,14 @@ class UnitSolver {
     /// Frames that are equally far apart in motion, with that of the largest.
     std::vector<long> some_frames() const {
         const long all = target_.cols();
+        const int count =
+            std::clamp(static_cast<int>(all / kFramesForOne), kLeastFrames, options_.frames);
         std::vector<double> way{0};
         for (long t = 1; t < all; ++t)
             way.push_back(way.back() + (target_.col(t) - target_.col(t - 1)).norm());
         std::set<long> out{peak_};
-        for (int k = 0; k + 1 < options_.frames; ++k) {
-            const double at = way.back() * (k + 0.5) / (options_.frames - 1);
+        for (int k = 0; k + 1 < count; ++k) {
+            const double at = way.back() * (k + 0.5) / (count - 1);
             out.insert(std::lower_bound(way.begin(), way.end(), at) - way.begin());
         }
         return {out.begin(), out.end()};
@@ -236,14 +270,12 @@ class UnitSolver {
     double simulate(const std::vector<long>& frames) {
         std::vector<Eigen::VectorXd> weights;
         for (const long t : frames) weights.emplace_back(weight_.col(t));
-        const std::vector<Eigen::VectorXd> moved = bench_.moved(weights, quiet());
+        const std::vector<Eigen::VectorXd> moved = bench_.moved_in_turn(weights, quiet());
         double most = 0;
         std::vector<Eigen::VectorXd> found;
         for (std::size_t i = 0; i < frames.size(); ++i) {
             found.emplace_back(root_.asDiagonal() * moved[i]);
             most = std::max(most, rms_of(found[i] - model_.moved(weights[i])));
-        }
-        for (std::size_t i = 0; i < frames.size(); ++i) {
         }
         for (std::size_t i = 0; i < frames.size(); ++i) model_.add(weights[i], found[i]);
         return most;
@@ -322,10 +354,26 @@ class UnitSolver {
     }
 
     void find_keys() {
-        Eigen::MatrixXd values(static_cast<long>(channels_.size()), target_.cols());
-        for (long t = 0; t < target_.cols(); ++t) values.col(t) = in_channels(weight_.col(t));
-        keys_ = joint_keys(times_s_, costs(), values, squares_of(options_.key_error_m));
-        use_keys();
+        for (bool again = true; again && !channels_.empty();) {
+            Eigen::MatrixXd values(static_cast<long>(channels_.size()), target_.cols());
+            for (long t = 0; t < target_.cols(); ++t) values.col(t) = in_channels(weight_.col(t));
+            keys_ = joint_keys(times_s_, costs(), values, squares_of(options_.key_error_m));
+            again = leave_out_idle();
+            use_keys();
+        }
+    }
+    /// Leaves out channels that hardly do anything by their keys. Says whether there are any.
+    bool leave_out_idle() {
+        bool found = false;
+        for (std::size_t c = channels_.size(); c-- > 0;) {
+            if (std::any_of(keys_[c].begin(), keys_[c].end(),
+                            [](const track::Key& key) { return key.value >= kLeastWeight; }))
+                continue;
+            channels_.erase(channels_.begin() + static_cast<long>(c));
+            keys_.erase(keys_.begin() + static_cast<long>(c));
+            found = true;
+        }
+        return found;
     }
     void refit_keys() {
         for (int round = 0; round < 2; ++round) {
@@ -387,9 +435,10 @@ class UnitSolver {
 
 }  // namespace
 
-UnitSolution solve_units(const UnitBench& bench, const FitTarget& given, UnitState rest,
-                         const UnitSolveOptions& options, const ProgressMonitor& monitor) {
-    return UnitSolver(bench, given, std::move(rest), options, monitor).solve();
+UnitSolution solve_units(const UnitBench& bench, const FitTarget& given,
+                         std::vector<UnitState> known, const UnitSolveOptions& options,
+                         const ProgressMonitor& monitor) {
+    return UnitSolver(bench, given, std::move(known), options, monitor).solve();
 }
 
 }  // namespace risorius::inverse

@@ -6,8 +6,8 @@
 ///
 ///   g   displacement of the landmarks in a frame      u(w)   that of the face in equilibrium under the units at intensities w
 ///
-/// The frame of the largest motion decides which units there are (unit_choice.h), by the sum of unit shapes; an equilibrium under the
-/// chosen units corrects the sum, and the choice is made again. Then other frames decide that these units do not explain. All frames are fitted with a model (unit_model.h) through equilibria that are simulated in
+/// The frame of the largest motion decides which units there are (unit_choice.h), by the sum of unit shapes and by expressions that are
+/// known of the rig; an equilibrium under the chosen units corrects the sum, and the choice is made again. Then other frames decide that these units do not explain. All frames are fitted with a model (unit_model.h) through equilibria that are simulated in
 /// few of them. Keys are left out as long as the face, and not a single curve, stays near (joint_keys.h). Then the script is
 /// simulated in some frames; where the model was off, these equilibria correct it, and the values of the keys are fitted again.
 #pragma once
@@ -31,7 +31,7 @@ struct UnitSolveOptions {
     /// RMS that the face may move when both sides share a curve, m
     double same_sides_m = 3e-5;
     double key_error_m = 5e-5;  ///< RMS that the face may move when keys are left out
-    int frames = 7;             ///< that are simulated in each round
+    int frames = 7;             ///< at most, that are simulated in each round
 };
 
 /// The curve of a channel of a script, smooth between keys.
@@ -48,8 +48,9 @@ struct UnitSolution {
     std::vector<bool> simulated;  ///< one per frame
 };
 
-/// `rest`: that of the bench. Throws Interrupted.
-UnitSolution solve_units(const UnitBench& bench, const FitTarget& given, UnitState rest,
-                         const UnitSolveOptions& options, const ProgressMonitor& monitor);
+/// `known`: that of the bench. Throws Interrupted.
+UnitSolution solve_units(const UnitBench& bench, const FitTarget& given,
+                         std::vector<UnitState> known, const UnitSolveOptions& options,
+                         const ProgressMonitor& monitor);
 
 }  // namespace risorius::inverse

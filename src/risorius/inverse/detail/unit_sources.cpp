@@ -45,6 +45,22 @@ void UnitSources::add(const scene::RigFiles& files, const std::string& set, bool
     }
 }
 
+Eigen::VectorXd UnitSources::weights_of(const track::ExpressionParts& parts,
+                                        double intensity) const {
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(count());
+    for (const UnitCandidate& one : candidates_)
+        for (const track::ExpressionUnit& unit : parts.units) {
+            if (!one.is_unit || unit.use.unit != one.name) continue;
+            for (const std::size_t s : one.sources) {
+                const int side = sources_[s].side;
+                if (unit.use.side && side >= 0 && side != (*unit.use.side == Side::kLeft ? 0 : 1))
+                    continue;
+                out[static_cast<long>(s)] = intensity * unit.use.value;
+            }
+        }
+    return out;
+}
+
 track::Drive UnitSources::drive_of(const Eigen::VectorXd& weights) const {
     track::Expansion sum = track::Expansion::none(channels_);
     for (std::size_t s = 0; s < sources_.size(); ++s)

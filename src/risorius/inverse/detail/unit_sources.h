@@ -39,6 +39,8 @@ class UnitSources {
     const std::vector<UnitCandidate>& candidates() const { return candidates_; }
     const UnitSource& at(std::size_t source) const { return sources_[source]; }
 
+    /// The weights of the units of an expression at an intensity; 0 for those that are no sources.
+    Eigen::VectorXd weights_of(const track::ExpressionParts& parts, double intensity) const;
     /// The drive of weights, one per source; clamped to the ranges of muscles and channels.
     track::Drive drive_of(const Eigen::VectorXd& weights) const;
     /// The change of the drive per change of the weight of a source, over a tenth of its range.

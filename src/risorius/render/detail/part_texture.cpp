@@ -6,7 +6,7 @@
 #include "risorius/core/error.h"
 #include "risorius/render/detail/shaders.h"
 #include "risorius/render/detail/smooth_normals.h"
-#include "risorius/render/detail/texture_square.h"
+#include "risorius/render/texture_square.h"
 
 namespace risorius::render {
 namespace {

@@ -24,13 +24,12 @@
 #include <vector>
 
 #include "risorius/core/types.h"
+#include "risorius/face/fold_profile.h"
 #include "risorius/face/skin/detail/wrinkle_lines.h"
 #include "risorius/solve/sparse_cholesky.h"
 
 namespace risorius::face {
 
-double fold_profile(double phase);  ///< P
-double fold_height(double phase);   ///< h / A over the skin without folds
 /// Returns length of the profile / wavelength - 1, for a wave with this depth / wavelength.
 double fold_excess(double depth_ratio);
 double fold_depth_ratio(double excess);  ///< inverse of fold_excess()
