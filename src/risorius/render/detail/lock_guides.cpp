@@ -222,7 +222,7 @@ void LockGround::add_tail(RandomSequence& random, std::vector<LockGuide>& guides
         LockGuide guide;
         guide.segments = style_.segments;
         guide.root = *root;
-        guide.hangs = true;
+        guide.hangs = guide.tail = true;
         const double turn = 2 * std::numbers::pi * (i + 0.5 * random.next()) / kLocks,
                      inner = std::sqrt(random.next()),
                      length = kLength_m * (0.8 + 0.3 * random.next());

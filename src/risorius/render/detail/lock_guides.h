@@ -23,6 +23,7 @@ struct LockGuide {
     bool edge = false;    ///< grows at the hairline
     bool single = false;  ///< one of the single hairs at the hairline
     bool hangs = false;   ///< some of it is far from the head
+    bool tail = false;    ///< hangs from the knot
 };
 
 /// The head of a scene with a style: where its hair grows, and the hull that it lies on.

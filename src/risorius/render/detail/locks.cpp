@@ -106,7 +106,7 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
             hair.triangles.insert(hair.triangles.end(), {a, b, d, a, d, c});
         }
     // What goes to a knot ends in it.
-    const bool knotted = style.flow == HairFlow::kKnot && !guide.hangs;
+    const bool knotted = style.flow == HairFlow::kKnot && !guide.tail;
     if (style.fray_mm > 0 && !guide.single && !knotted) {
         add_ends({hair.vertices.end() - static_cast<std::ptrdiff_t>(columns), hair.vertices.end()},
                  1e-3 * style.fray_mm, random, hair);
