@@ -202,6 +202,33 @@ TEST(Outputs, AStopBeforeTheRunBeginsEndsItToo) {
     }
 }
 
+/// The largest nice value of the threads of a process.
+int lowest_priority(pid_t process) {
+    int nice = 0;
+    std::error_code ended;
+    const fs::path tasks = "/proc/" + std::to_string(process) + "/task";
+    for (auto task = fs::directory_iterator(tasks, ended);
+         !ended && task != fs::directory_iterator(); task.increment(ended))
+        nice = std::max(
+            nice, ::getpriority(PRIO_PROCESS,
+                                static_cast<id_t>(std::stoi(task->path().filename().string()))));
+    return nice;
+}
+
+// The system keeps a process until each of its threads had a turn. On a busy machine that takes seconds for one of the lowest priority.
+TEST(Outputs, WaitForNoThreadOfALowPriorityAfterAStop) {
+    const Folder folder;
+    const int usual = lowest_priority(::getpid());
+    const pid_t child = start({"render", kHello, "--draft", "--still", "0", "-o", "x.png"}, folder);
+    int lowest = usual, status = 0;
+    while (::waitpid(child, &status, WNOHANG) == 0) {
+        lowest = std::max(lowest, lowest_priority(child));
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ(exit_code(status), 0);
+    EXPECT_EQ(lowest, usual);
+}
+
 // An importer that never ends stands for one that reads a large mesh.
 TEST(Outputs, AStopWhileAMeshIsImportedEndsTheImporterToo) {
     const Folder folder;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The command line: turns arguments into calls of the library, and exceptions into messages and exit codes.
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -25,7 +26,6 @@
 #include "risorius/core/version.h"
 #include "tools/risorius/commands.h"
 #include "tools/risorius/failure.h"
-#include "tools/risorius/idle_threads.h"
 #include "tools/risorius/manual_pages.h"
 #include "tools/risorius/stop_signals.h"
 
@@ -253,6 +253,11 @@ bool is_printed() {
 
 }  // namespace
 
+/// Takes the place of the function of the C library. Mesa gives the thread that writes its cache of shaders the lowest priority. The
+/// system keeps a process until each of its threads had a turn, and on a busy machine a run that was stopped waited 4 to 9 s for
+/// that of this one. It works for tenths of a second and may have the usual priority.
+extern "C" int setpriority(__priority_which_t, id_t, int) noexcept { return 0; }
+
 int main(int argc, char** argv) {
     std::set_terminate(end_without_memory);
     risorius::cli::catch_stop_signals(wants_json(argc, argv));
@@ -260,10 +265,7 @@ int main(int argc, char** argv) {
     risorius::cli::end_of_run();
     const bool printed = is_printed();
     // At once: what libraries do at the end may take seconds.
-    if (code == kInterrupted) {
-        risorius::cli::end_idle_threads();
-        std::_Exit(code);
-    }
+    if (code == kInterrupted) std::_Exit(code);
     if (printed || code != kDone) return code;
     return say(kFailed, "standard output: the report cannot be written");
 }

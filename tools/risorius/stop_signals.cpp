@@ -16,14 +16,13 @@
 
 #include "risorius/core/output_set.h"
 #include "tools/risorius/failure.h"
-#include "tools/risorius/idle_threads.h"
 
 namespace risorius::cli {
 
 namespace {
 
 constexpr int kInterrupted = 130;
-constexpr long kPatience_ns = 700'000'000;
+constexpr long kPatience_ns = 600'000'000;
 constexpr auto kBetweenTries = std::chrono::milliseconds(10);
 
 std::atomic<bool> stop_asked{false};
@@ -74,7 +73,6 @@ void watch(bool json) {
         if (!abandon_outputs()) continue;  // decided, or about to be
         if (json) write_text(STDOUT_FILENO, failure_line(kInterrupted, stop_message()));
         write_text(STDERR_FILENO, "risorius: " + stop_message() + "\n");
-        end_idle_threads();
         ::_exit(kInterrupted);
     }
 }
