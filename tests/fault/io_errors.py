@@ -8,6 +8,7 @@ hidden file beside it. Prints the number of operations and runs of each command.
     io_errors.py PROGRAM LIBRARY              a few operations of each command, for ctest
     io_errors.py PROGRAM LIBRARY --each       every operation with one fault, which changes from one to the next
     io_errors.py PROGRAM LIBRARY --all        every operation with every fault, which takes hours
+    io_errors.py ... --part 2/5               of these, every fifth from the second on: the parts may run one after the other
 """
 import argparse
 import errno
@@ -20,6 +21,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ERRORS = [errno.ENOSPC, errno.EIO, errno.EMFILE]
@@ -87,7 +89,8 @@ def commands(scratch):
 
     def shapes(name):
         return ["shapes", ROOT / "rigs/adult/rig.json", "-o", "{out}/s", "--only", name,
-                "--no-pictures", "--no-correctives", "--test-frames", "0", "--formats", "glb,obj"]
+                "--no-pictures", "--no-correctives", "--test-frames", "0", "--formats", "glb,obj",
+                "--texture", "0"]
 
     return [
         Command("render", render("64x64"), render("48x48")),
@@ -103,7 +106,7 @@ def commands(scratch):
 def run(program, arguments, out, environment=None):
     command = [program] + [str(word).format(out=out) for word in arguments]
     return subprocess.run(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                          env={**os.environ, "RISORIUS_DATA": str(ROOT), **(environment or {})}, timeout=300)
+                          env={**os.environ, "RISORIUS_DATA": str(ROOT), **(environment or {})}, timeout=900)
 
 
 class Loop:
@@ -176,11 +179,11 @@ class Loop:
             self.tell("after one more run", where,
                       (again.returncode, again.stderr, sorted(files), hidden))
 
-    def all(self, every, each, names):
+    def all(self, every, each, names, part):
         faults = [({"FAULT_ERROR": str(e)}, errno.errorcode[e]) for e in ERRORS]
         faults += [({"FAULT_SIGNAL": str(int(s))}, s.name) for s in SIGNALS]
         faults = [fault for fault in faults if not names or fault[1] in names]
-        total = 0
+        total, begin = 0, time.monotonic()
         for with_former in (False, True):
             operations = self.operations(with_former)
             total += len(operations)
@@ -189,12 +192,12 @@ class Loop:
                 # The operations around the decision, with a fault that changes from one to the next
                 moves = [i for i, o in enumerate(operations, 1) if o.startswith("rename")]
                 chosen = sorted({2, *moves[-3:], *(i + 1 for i in moves[-1:])})
-            for n, at in enumerate(chosen):
+            for n, at in list(enumerate(chosen))[part[0] - 1::part[1]]:
                 step = 1 if each else 3
                 for fault, name in faults if every else [faults[(2 + n * step) % len(faults)]]:
                     self.try_one(at, with_former, fault, name)
         print(f"{self.command.name}: {total} operations, {self.runs} runs with a fault, "
-              f"{self.broken} broken promises", flush=True)
+              f"{self.broken} broken promises, in {time.monotonic() - begin:.0f} s", flush=True)
         return self.broken
 
 
@@ -205,6 +208,7 @@ def main():
     parser.add_argument("--all", action="store_true")
     parser.add_argument("--each", action="store_true")
     parser.add_argument("--only", default="render,head", help="commands: render,head,batch,shapes,fit")
+    parser.add_argument("--part", default="1/1", type=lambda text: [int(number) for number in text.split("/")])
     parser.add_argument("--faults", default="", help="such as ENOSPC,SIGKILL; default: all")
     arguments = parser.parse_args()
     broken = 0
@@ -215,7 +219,7 @@ def main():
             scratch = pathlib.Path(base) / command.name
             scratch.mkdir()
             broken += Loop(arguments.program.resolve(), arguments.library.resolve(), command,
-                           scratch).all(arguments.all, arguments.each, arguments.faults)
+                           scratch).all(arguments.all, arguments.each, arguments.faults, arguments.part)
     sys.exit(1 if broken else 0)
 
 

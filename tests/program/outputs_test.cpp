@@ -48,12 +48,13 @@ void write_tone(const fs::path& file) {
 }
 
 /// The program, started in the background with signals as a shell in the foreground would leave them.
-pid_t start(const std::vector<std::string>& arguments, const Folder& folder) {
+pid_t start(const std::vector<std::string>& arguments, const Folder& folder,
+            const char* report = "/dev/null") {
     const pid_t child = ::fork();
     if (child != 0) return child;
     for (const int signal : {SIGINT, SIGHUP, SIGTERM}) ::signal(signal, SIG_DFL);
     if (::chdir(folder.path().c_str()) != 0) ::_exit(9);
-    if (!std::freopen("/dev/null", "w", stdout) || !std::freopen("errors", "w", stderr)) ::_exit(9);
+    if (!std::freopen(report, "w", stdout) || !std::freopen("errors", "w", stderr)) ::_exit(9);
     std::vector<char*> words{const_cast<char*>(kProgram.c_str())};
     for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);
@@ -184,6 +185,50 @@ TEST(Outputs, AreGoneWithinASecondAfterAStop) {
         }
 }
 
+// On a busy machine the libraries of the program take some tenths of a second until main() begins.
+TEST(Outputs, AStopBeforeTheRunBeginsEndsItToo) {
+    for (const int after_ms : {0, 10, 20, 40, 80}) {
+        const Folder folder;
+        const pid_t child =
+            start({"render", kHello, "--draft", "--json", "-o", "x/y.mp4"}, folder, "report");
+        wait_until_it_listens(child);
+        std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
+        ::kill(child, SIGINT);
+        EXPECT_EQ(wait_for(child), 130) << "after " << after_ms << " ms";
+        EXPECT_EQ(folder.listing(), (Names{"errors", "report"}));
+        EXPECT_EQ(bytes_of(folder / "errors"), "risorius: interrupted, nothing was written\n");
+        EXPECT_NE(bytes_of(folder / "report").find("\"exit_code\":130"), std::string::npos)
+            << bytes_of(folder / "report");
+    }
+}
+
+/// The largest nice value of the threads of a process.
+int lowest_priority(pid_t process) {
+    int nice = 0;
+    std::error_code ended;
+    const fs::path tasks = "/proc/" + std::to_string(process) + "/task";
+    for (auto task = fs::directory_iterator(tasks, ended);
+         !ended && task != fs::directory_iterator(); task.increment(ended))
+        nice = std::max(
+            nice, ::getpriority(PRIO_PROCESS,
+                                static_cast<id_t>(std::stoi(task->path().filename().string()))));
+    return nice;
+}
+
+// The system keeps a process until each of its threads had a turn. On a busy machine that takes seconds for one of the lowest priority.
+TEST(Outputs, WaitForNoThreadOfALowPriorityAfterAStop) {
+    const Folder folder;
+    const int usual = lowest_priority(::getpid());
+    const pid_t child = start({"render", kHello, "--draft", "--still", "0", "-o", "x.png"}, folder);
+    int lowest = usual, status = 0;
+    while (::waitpid(child, &status, WNOHANG) == 0) {
+        lowest = std::max(lowest, lowest_priority(child));
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ(exit_code(status), 0);
+    EXPECT_EQ(lowest, usual);
+}
+
 // An importer that never ends stands for one that reads a large mesh.
 TEST(Outputs, AStopWhileAMeshIsImportedEndsTheImporterToo) {
     const Folder folder;
@@ -269,6 +314,24 @@ TEST(Outputs, AReportThatCannotBePrintedIsAnError) {
                   "risorius: standard output: the report cannot be written\n");
         EXPECT_TRUE(fs::exists(folder / "x.mp4"));
     }
+}
+
+// `batch --json | head` once died in the middle of the set.
+TEST(Outputs, ASetIsMadeThoughNobodyReadsItsReport) {
+    const Folder folder;
+    write(folder / "design.json", R"({"format": "risorius-design", "version": 1, "name": "Two",
+        "clips": {"quality": "draft"}, "sets": [{"name": "a", "clip": "c${k}", "factors": {"k": [1, 2]},
+        "script": {"format": "risorius-script", "version": 1, "fps": 20, "duration_s": 0.1,
+            "rig": ")" RISORIUS_SOURCE_DIR R"(/rigs/adult/rig.json",
+            "view": {"width_px": 64, "height_px": 64, "antialiasing": 1}}}]})");
+    const std::string command = "bash -c 'cd " + folder.path().string() + " && { " + kProgram +
+                                " batch design.json -o set --json --workers 1 2>errors; echo $? > "
+                                "code; } | true'";
+    EXPECT_EQ(exit_code(std::system(command.c_str())), 0);
+    EXPECT_EQ(bytes_of(folder / "code"), "1\n");
+    EXPECT_EQ(bytes_of(folder / "errors"),
+              "risorius: standard output: the report cannot be written\n");
+    EXPECT_TRUE(fs::exists(folder / "set/SHA256SUMS"));
 }
 
 TEST(Outputs, ALimitOfTheSizeOfFilesIsAnError) {

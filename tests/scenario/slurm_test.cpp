@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A stimulus set made by a job array of a real Slurm that the test starts on the loopback.
+// A stimulus set made by a job array of a real Slurm that the test starts on the loopback, and runs without Slurm.
 #include "risorius/stimuli/slurm.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "paths.h"
+#include "risorius/core/error.h"
 #include "risorius/report/run_program.h"
 #include "temporary_folder.h"
 
@@ -23,6 +24,22 @@ using report::run_program;
 std::string text_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A design of two clips, in a file whose name a shell would not take for one word.
+fs::path design_in(const fs::path& folder) {
+    Json json = Json::parse(R"({"format": "risorius-design", "version": 1, "name": "Two",
+        "clips": {"quality": "preview", "ending": "mkv"},
+        "match": {"luminance": {"mean": 0.28}},
+        "sets": [{"name": "two", "clip": "${expression}",
+            "factors": {"expression": ["happiness", "fear"]},
+            "script": {"format": "risorius-script", "version": 1, "fps": 10, "duration_s": 0.3,
+                "events": [{"expression": "${expression}", "start_s": 0.0, "onset_s": 0.2}],
+                "view": {"width_px": 48, "height_px": 64, "antialiasing": 1}}}]})");
+    json["sets"][0]["script"]["rig"] = RISORIUS_SOURCE_DIR "/rigs/adult/rig.json";
+    const fs::path file = folder / "it's a design.json";
+    std::ofstream(file) << json.dump();
+    return file;
 }
 
 class Slurm : public testing::Test {
@@ -41,21 +58,7 @@ class Slurm : public testing::Test {
 
     static std::string cluster() { return RISORIUS_SOURCE_DIR "/tests/data/slurm/cluster.sh"; }
     const fs::path& folder() const { return folder_.path(); }
-
-    fs::path design() const {
-        Json json = Json::parse(R"({"format": "risorius-design", "version": 1, "name": "Two",
-            "clips": {"quality": "preview", "ending": "mkv"},
-            "match": {"luminance": {"mean": 0.28}},
-            "sets": [{"name": "two", "clip": "${expression}",
-                "factors": {"expression": ["happiness", "fear"]},
-                "script": {"format": "risorius-script", "version": 1, "fps": 10, "duration_s": 0.3,
-                    "events": [{"expression": "${expression}", "start_s": 0.0, "onset_s": 0.2}],
-                    "view": {"width_px": 48, "height_px": 64, "antialiasing": 1}}}]})");
-        json["sets"][0]["script"]["rig"] = RISORIUS_SOURCE_DIR "/rigs/adult/rig.json";
-        const fs::path file = folder() / "it's a design.json";
-        std::ofstream(file) << json.dump();
-        return file;
-    }
+    fs::path design() const { return design_in(folder()); }
 
   private:
     TemporaryFolder folder_;
@@ -98,6 +101,51 @@ TEST_F(Slurm, MakesTheSameBytesAsThisMachineAndTriesAgain) {
     EXPECT_EQ(report.kept + report.made, 2);
     EXPECT_EQ(text_of(there.out / "SHA256SUMS"), text_of(here.out / "SHA256SUMS"));
     EXPECT_FALSE(fs::exists(there.out / "code/slurm.sh"));
+}
+
+/// Programs are looked for in one folder alone.
+class WithoutSlurm : public testing::Test {
+  protected:
+    void SetUp() override {
+        before_ = std::getenv("PATH");
+        fs::create_directory(folder_ / "programs");
+        setenv("PATH", (folder_ / "programs").c_str(), 1);
+        batch_.design = design_in(folder_.path());
+        batch_.out = folder_ / "results/there";
+        slurm_.part_command = [](const auto&...) { return std::vector<std::string>{"true"}; };
+    }
+    void TearDown() override { setenv("PATH", before_.c_str(), 1); }
+    void make_program(const std::string& name, const std::string& does) const {
+        const fs::path program = folder_ / "programs" / name;
+        std::ofstream(program) << "#!/bin/sh\n" << does << "\n";
+        fs::permissions(program, fs::perms::owner_all);
+    }
+
+    TemporaryFolder folder_;
+    stimuli::BatchOptions batch_;
+    stimuli::SlurmOptions slurm_;
+
+  private:
+    std::string before_;
+};
+
+TEST_F(WithoutSlurm, ProgramsThatAreMissingAreAnErrorBeforeAnythingIsWritten) {
+    try {
+        stimuli::make_batch_on_slurm(batch_, slurm_);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_STREQ(
+            error.what(),
+            "engine: expected the programs of Slurm with \"slurm\", found no program \"sbatch\"");
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "results"));
+}
+
+TEST_F(WithoutSlurm, AJobThatIsRejectedLeavesNothing) {
+    for (const char* name : {"squeue", "scancel"}) make_program(name, "exit 0");
+    make_program("sbatch", "case \"$1\" in --version) exit 0;; esac\necho sbatch: no; exit 1");
+    EXPECT_THROW(stimuli::make_batch_on_slurm(batch_, slurm_), RunError);
+    EXPECT_FALSE(fs::exists(folder_ / "results"));
 }
 
 }  // namespace

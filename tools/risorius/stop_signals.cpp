@@ -4,6 +4,7 @@
 #include <semaphore.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -14,13 +15,14 @@
 #include <thread>
 
 #include "risorius/core/output_set.h"
+#include "tools/risorius/failure.h"
 
 namespace risorius::cli {
 
 namespace {
 
 constexpr int kInterrupted = 130;
-constexpr long kPatience_ns = 700'000'000;
+constexpr long kPatience_ns = 600'000'000;
 constexpr auto kBetweenTries = std::chrono::milliseconds(10);
 
 std::atomic<bool> stop_asked{false};
@@ -57,43 +59,57 @@ void wait_for_patience() {
     }
 }
 
+void write_text(int file, const std::string& text) {
+    // Where it cannot be written, nothing is left to be done.
+    [[maybe_unused]] const ::ssize_t written = ::write(file, text.data(), text.size());
+}
+
 /// Ends the program when the run does not.
-void watch() {
+void watch(bool json) {
     wait_for_signal();
     wait_for_patience();
     for (;; std::this_thread::sleep_for(kBetweenTries)) {
         const std::lock_guard lock(ending());
         if (!abandon_outputs()) continue;  // decided, or about to be
-        const std::string message = "risorius: " + stop_message() + "\n";
-        if (::write(STDERR_FILENO, message.data(), message.size()) < 0) ::_exit(kInterrupted);
+        if (json) write_text(STDOUT_FILENO, failure_line(kInterrupted, stop_message()));
+        write_text(STDERR_FILENO, "risorius: " + stop_message() + "\n");
         ::_exit(kInterrupted);
     }
 }
 
-void catch_signal(int signal) {
-    struct ::sigaction now {};
-    ::sigaction(signal, nullptr, &now);
-    if (now.sa_handler == SIG_IGN) return;
-    struct ::sigaction then {};
-    then.sa_handler = note_stop;
-    // Files are read and written as without signals; the thread above ends what waits for long.
-    then.sa_flags = SA_RESTART;
-    ::sigemptyset(&then.sa_mask);
-    ::sigaction(signal, &then, nullptr);
-}
+constexpr std::array kStops{SIGHUP, SIGINT, SIGTERM};
 
 }  // namespace
 
-void catch_stop_signals() {
+// Only what may be called before the libraries are initialised
+void note_stops() {
     ::sem_init(&signals, 0, 0);
+    for (const int signal : kStops) {
+        struct ::sigaction now {};
+        ::sigaction(signal, nullptr, &now);
+        if (now.sa_handler == SIG_IGN) continue;
+        struct ::sigaction then {};
+        then.sa_handler = note_stop;
+        // Files are read and written as without signals; the thread above ends what waits for long.
+        then.sa_flags = SA_RESTART;
+        ::sigemptyset(&then.sa_mask);
+        ::sigaction(signal, &then, nullptr);
+    }
+}
+
+void catch_stop_signals(bool json) {
     ending();
     for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
     try {
-        std::thread(watch).detach();
+        std::thread(watch, json).detach();
     } catch (const std::system_error&) {
-        return;  // no thread to be had: signals end the program, and the next run removes what it left
+        // No thread to be had: signals end the program, and the next run removes what it left.
+        for (const int signal : kStops) {
+            struct ::sigaction now {};
+            ::sigaction(signal, nullptr, &now);
+            if (now.sa_handler == note_stop) std::signal(signal, SIG_DFL);
+        }
     }
-    for (const int signal : {SIGHUP, SIGINT, SIGTERM}) catch_signal(signal);
 }
 
 bool stop_is_asked() { return stop_asked && !outputs_are_decided(); }

@@ -215,9 +215,29 @@ std::vector<TrackError> compare_tracks(const scene::RigFiles& files, const Shape
     return out;
 }
 
+/// Whether a format has every vertex in every frame of a script.
+bool is_cache(const std::string& format) {
+    return format == "cache" || format == "pc2" || format == "mdd";
+}
+
+/// Throws Error for values that are not allowed, and for formats and options that would come to nothing.
 void check_options(const ShapesOptions& options) {
-    for (const std::string& format : options.formats)
+    for (const std::string& format : options.formats) {
         index_of_name(option_name("formats"), format, shape_formats());
+        if ((is_cache(format) || format == "csv") && options.script.empty())
+            throw Error(option_name("formats"),
+                        option_name("script") + " with " + in_quotes(format) +
+                            ", which has the frames of a script",
+                        "none");
+        if (format == "csv" && options.set != "arkit52")
+            throw Error(option_name("formats"), "the set \"arkit52\" with \"csv\"",
+                        in_quotes(options.set));
+    }
+    if (options.head_turns &&
+        std::none_of(options.formats.begin(), options.formats.end(), is_cache))
+        throw Error(option_name("head_turns"),
+                    "cache, pc2 or mdd among " + option_name("formats") + ", which it changes",
+                    "none");
     constexpr int kMin_px = 256, kMax_px = 4096;
     for (const auto& [name, px] :
          {std::pair{"texture_px", options.texture_px}, {"maps_px", options.maps_px}})
@@ -343,8 +363,7 @@ ShapesReport bake_shapes(const ShapesOptions& options, const ProgressMonitor& mo
         keep({"live_link.csv"});
     }
     // Caches are large, so they are written only on request.
-    if (report.animation && !options.formats.empty() &&
-        (wants(options, "cache") || wants(options, "pc2") || wants(options, "mdd")))
+    if (report.animation && std::any_of(options.formats.begin(), options.formats.end(), is_cache))
         keep(write_vertex_cache(files, solver.face(), report.correctives.rig, *report.animation,
                                 options.formats, options.head_turns, folder.partial()));
     if (wants(options, "table"))

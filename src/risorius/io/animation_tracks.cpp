@@ -48,9 +48,14 @@ AnimationTrack read_track(const GltfFile& from, const JsonCursor& node, int node
             out.at_rest[static_cast<long>(k)] = rest->items()[k].number();
     if (path == "weights") {
         const JsonCursor& mesh = from.item("meshes", node.at("mesh"));
+        from.spend(mesh, mesh.at("primitives").items().size());
         out.targets = target_names(mesh);
+        from.spend(mesh, out.targets.size());
         width = target_count(mesh);
         if (width == 0) node.at("mesh").fail("a mesh with morph targets", "one without");
+        // Some programs list names of more targets than there are.
+        if (static_cast<long>(out.targets.size()) > width)
+            out.targets.resize(static_cast<std::size_t>(width));
     }
     const JsonCursor& input = from.item("accessors", sampler.at("input"));
     const JsonCursor& output = from.item("accessors", sampler.at("output"));

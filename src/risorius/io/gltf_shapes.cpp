@@ -2,6 +2,7 @@
 #include "risorius/io/gltf_shapes.h"
 
 #include <algorithm>
+#include <map>
 
 #include "risorius/core/error.h"
 #include "risorius/io/detail/gltf_file.h"
@@ -46,16 +47,18 @@ class ShapesOfGltf {
             if (const auto listed = extras->find("targetNames"))
                 for (const JsonCursor& name : listed->items()) names.push_back(name.string());
         }
-        for (const JsonCursor& primitive : mesh.at("primitives").items())
-            add_primitive(primitive, names, place);
+        const std::vector<JsonCursor> primitives = mesh.at("primitives").items();
+        from_.spend(mesh, names.size() + primitives.size());
+        for (const JsonCursor& primitive : primitives) add_primitive(primitive, names, place);
     }
 
     std::size_t target_named(const std::string& name) {
-        for (std::size_t t = 0; t < out_.targets.size(); ++t)
-            if (out_.targets[t].name == name) return t;
-        out_.targets.push_back({name, {}, {}});
-        deltas_.emplace_back();
-        return deltas_.size() - 1;
+        const auto [entry, is_new] = target_at_.try_emplace(name, deltas_.size());
+        if (is_new) {
+            out_.targets.push_back({name, {}, {}});
+            deltas_.emplace_back();
+        }
+        return entry->second;
     }
 
     void add_primitive(const JsonCursor& primitive, const std::vector<std::string>& names,
@@ -82,6 +85,7 @@ class ShapesOfGltf {
         const auto targets = primitive.find("targets");
         if (!targets) return;
         const std::vector<JsonCursor> listed = targets->items();
+        from_.spend(*targets, listed.size());
         if (names.size() != listed.size())
             primitive.fail("a name for each of its " + std::to_string(listed.size()) +
                                " targets in the mesh's extras.targetNames",
@@ -113,6 +117,7 @@ class ShapesOfGltf {
     GltfShapes out_;
     std::vector<Vec3> positions_;
     std::vector<std::vector<Vec3>> deltas_;  ///< by target
+    std::map<std::string, std::size_t> target_at_;
     bool numbered_ = true;
 };
 

@@ -85,6 +85,7 @@ void add_primitive(const GltfFile& from, const JsonCursor& primitive, const Eige
                         "neither or one");
     const auto named = primitive.find("targets");
     const std::vector<JsonCursor> targets = named ? named->items() : std::vector<JsonCursor>{};
+    from.spend(primitive, targets.size());
     if (targets.size() != of_target.size())
         primitive.fail("a target for each of its " + std::to_string(of_target.size()) + " names",
                        std::to_string(targets.size()));
@@ -165,7 +166,10 @@ MorphModel read_model(const std::filesystem::path& file) {
     std::vector<std::map<int, Vec3>> deltas(out.targets.size());
     for (const detail::PlacedMesh& placed : meshes) {
         std::vector<std::size_t> of_target;
-        for (const std::string& name : names_of_targets(placed.mesh)) {
+        const std::vector<std::string> names = names_of_targets(placed.mesh);
+        const std::vector<JsonCursor> primitives = placed.mesh.at("primitives").items();
+        from.spend(placed.mesh, names.size() + primitives.size());
+        for (const std::string& name : names) {
             const auto known = index.find(name);
             if (known == index.end())
                 placed.mesh.at("extras")
@@ -173,7 +177,7 @@ MorphModel read_model(const std::filesystem::path& file) {
                     .fail("names that the first mesh has", "\"" + name + "\"");
             of_target.push_back(known->second);
         }
-        for (const JsonCursor& primitive : placed.mesh.at("primitives").items())
+        for (const JsonCursor& primitive : primitives)
             add_primitive(from, primitive, placed.place, of_target, deltas, out);
     }
     write_targets(deltas, out);

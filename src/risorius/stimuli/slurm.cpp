@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/stimuli/slurm.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <functional>
@@ -44,9 +46,35 @@ std::string one_line(std::string text) {
 report::ProgramResult slurm_program(const std::vector<std::string>& command) {
     const report::ProgramResult result = report::run_program(command);
     if (result.exit_code == 127)
-        throw RunError(command[0] + ": not found; a batch on a cluster needs Slurm's programs");
+        throw Error(option_name("engine"), "the programs of Slurm with \"slurm\"",
+                    "no program " + in_quotes(command[0]));
     return result;
 }
+
+/// The script of the job. When no job is accepted it goes again, with the folders that were made for it.
+class JobScript {
+  public:
+    JobScript(const fs::path& folder, const std::string& text) : file_(folder / "slurm.sh") {
+        for (fs::path above = folder; !above.empty() && !fs::exists(above);
+             above = above.parent_path())
+            made_.push_back(above);
+        report::write_text(file_, text);
+    }
+    ~JobScript() {
+        if (kept_) return;
+        std::error_code ignored;
+        fs::remove(file_, ignored);
+        for (const fs::path& folder : made_) ::rmdir(folder.c_str());  // only when it is empty
+    }
+    JobScript(const JobScript&) = delete;
+    JobScript& operator=(const JobScript&) = delete;
+    void keep() { kept_ = true; }
+
+  private:
+    fs::path file_;
+    std::vector<fs::path> made_;  ///< the innermost first
+    bool kept_ = false;
+};
 
 std::string sbatch_option(const std::string& name, const std::string& value = "") {
     return "--" + name + (value.empty() ? "" : "=" + value);
@@ -129,9 +157,9 @@ class Rounds {
     /// Returns the indices in the plan of the missing clips.
     using FindMissing = std::function<std::vector<std::size_t>()>;
 
-    Rounds(const BatchOptions& batch, const SlurmOptions& slurm, int tasks,
+    Rounds(const BatchOptions& batch, const SlurmOptions& slurm, int tasks, JobScript& script,
            const ProgressMonitor& monitor)
-        : batch_(batch), slurm_(slurm), tasks_(tasks), monitor_(monitor) {}
+        : batch_(batch), slurm_(slurm), tasks_(tasks), script_(script), monitor_(monitor) {}
 
     /// `number`: the number by which a clip is assigned to a part.
     std::vector<std::size_t> run(const char* what, const FindMissing& find_missing,
@@ -144,6 +172,7 @@ class Rounds {
             for (const std::size_t i : missing)
                 parts.insert(static_cast<int>(number(i) % static_cast<std::size_t>(tasks_)) + 1);
             const Job job(batch_, slurm_, {parts.begin(), parts.end()}, sent_++);
+            script_.keep();
             try {
                 while (job.goes_on()) {
                     monitor_.report(1 - static_cast<double>(missing.size()) / all,
@@ -174,6 +203,7 @@ class Rounds {
     const BatchOptions& batch_;
     const SlurmOptions& slurm_;
     int tasks_;
+    JobScript& script_;
     const ProgressMonitor& monitor_;
     int sent_ = 0;
 };
@@ -188,9 +218,10 @@ BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& s
     BatchReport report;
     report.name = plan.name;
     const int tasks = std::clamp(slurm.tasks, 1, static_cast<int>(plan.clips.size()));
-    fs::create_directories(batch.out / "code");
-    report::write_text(batch.out / "code/slurm.sh", slurm_script(batch, slurm, tasks));
-    Rounds rounds(batch, slurm, tasks, monitor);
+    for (const char* program : {"sbatch", "squeue", "scancel"})
+        slurm_program({program, sbatch_option("version")});
+    JobScript script(batch.out / "code", slurm_script(batch, slurm, tasks));
+    Rounds rounds(batch, slurm, tasks, script, monitor);
 
     // Luminance is matched over the whole set, so all conditions are rendered first. A task makes clips as well once all renders
     // exist.

@@ -30,8 +30,8 @@ struct SlurmOptions {
 };
 
 /// Makes a batch by a job array. Its script is DIR/code/slurm.sh; the logs of its tasks are DIR/code/slurm-ROUND-TASK.log. Throws Error
-/// for a wrong design, RunError when Slurm is missing or rejects the job, and Interrupted when the monitor asks to stop, after cancelling
-/// the job.
+/// for a wrong design and where Slurm's programs are missing, RunError when Slurm rejects the job, and Interrupted when the monitor asks to
+/// stop, after cancelling the job. When no job was accepted, nothing is left.
 BatchReport make_batch_on_slurm(const BatchOptions& batch, const SlurmOptions& slurm,
                                 const ProgressMonitor& monitor = {});
 

@@ -53,6 +53,9 @@ class GltfFile {
     std::vector<std::uint32_t> indices(const JsonCursor& accessor) const;
     /// The bytes of a buffer view, such as those of a picture.
     std::vector<std::uint8_t> bytes_of_view(const JsonCursor& view) const;
+    /// Counts work on `count` items of `width` numbers. Throws Error at `place` when all that was counted is out of proportion to
+    /// the size of the file: what a file lists once may be used by each of its nodes.
+    void spend(const JsonCursor& place, std::size_t count, int width = 1) const;
 
   private:
     struct Bytes {
@@ -77,14 +80,13 @@ class GltfFile {
     Numbers numbers(const JsonCursor& accessor, int width) const;
     Numbers values_in(const JsonCursor& place, const JsonCursor& accessor, int width,
                       std::size_t count) const;
-    void spend(const JsonCursor& place, std::size_t count, int width) const;
 
     JsonCursor json_;
     std::vector<Buffer> buffers_;
     mutable std::map<std::string, std::vector<JsonCursor>> lists_;
     /// By the place of the view
     mutable std::map<std::string, std::vector<std::uint8_t>> unpacked_;
-    /// Numbers that may still be read, in proportion to the size of the file
+    /// Numbers and items that may still be read, in proportion to the size of the file
     mutable double may_read_ = 0;
 };
 

@@ -164,7 +164,9 @@ class MeshOfGltf {
 
     void add_mesh(const JsonCursor& node, std::size_t node_index, const JsonCursor& mesh) {
         std::vector<Primitive> primitives;
-        for (const JsonCursor& primitive : mesh.at("primitives").items())
+        const std::vector<JsonCursor> listed = mesh.at("primitives").items();
+        gltf_.spend(mesh, listed.size());
+        for (const JsonCursor& primitive : listed)
             if (auto read = read_primitive(primitive)) primitives.push_back(std::move(*read));
         // Primitives of one mesh may share their vertices.
         std::vector<std::pair<Rows, int>> shared;

@@ -16,17 +16,22 @@ std::vector<Eigen::Matrix4d> places_of(const GltfFile& from) {
         if (const auto children = nodes[n].find("children"))
             for (const JsonCursor& reference : children->items())
                 parent[static_cast<std::size_t>(&from.item("nodes", reference) - nodes.data())] = n;
-    std::vector<Eigen::Matrix4d> own, out;
-    for (const JsonCursor& node : nodes) own.push_back(detail::transform_of(node));
+    std::vector<Eigen::Matrix4d> out;
+    for (const JsonCursor& node : nodes) out.push_back(detail::transform_of(node));
+    // From each node up to the first whose place is known, and down again: each node is met once, however deep they lie.
+    std::vector<char> known(nodes.size(), 0);
     for (std::size_t n = 0; n < nodes.size(); ++n) {
-        Eigen::Matrix4d place = own[n];
-        std::size_t depth = 0;
-        for (std::size_t up = parent[n]; up < nodes.size(); up = parent[up]) {
-            if (++depth > nodes.size())
+        std::vector<std::size_t> way;
+        for (std::size_t up = n; up < nodes.size() && !known[up]; up = parent[up]) {
+            if (way.size() == nodes.size())
                 nodes[n].fail("a node that is not inside of itself", "one that is");
-            place = own[up] * place;
+            way.push_back(up);
         }
-        out.push_back(place);
+        for (; !way.empty(); way.pop_back()) {
+            const std::size_t node = way.back(), above = parent[node];
+            if (above < nodes.size()) out[node] = out[above] * out[node];
+            known[node] = 1;
+        }
     }
     return out;
 }
@@ -35,12 +40,14 @@ std::vector<Eigen::Matrix4d> places_of(const GltfFile& from) {
 Eigen::Matrix4d place_of_skin(const GltfFile& from, const JsonCursor& skin,
                               const std::vector<Eigen::Matrix4d>& places) {
     const auto joints = skin.find("joints"), matrices = skin.find("inverseBindMatrices");
-    if (!joints || joints->items().empty() || !matrices) return Eigen::Matrix4d::Identity();
+    const std::vector<JsonCursor> listed = joints ? joints->items() : std::vector<JsonCursor>{};
+    if (listed.empty() || !matrices) return Eigen::Matrix4d::Identity();
+    from.spend(*joints, listed.size());
     const JsonCursor& accessor = from.item("accessors", *matrices);
     const Rows rows = from.rows(accessor, 16);
     if (rows.rows() < 1 || !rows.allFinite()) accessor.fail("finite matrices", "others");
-    const auto joint = static_cast<std::size_t>(&from.item("nodes", joints->items()[0]) -
-                                                from.list("nodes").data());
+    const auto joint =
+        static_cast<std::size_t>(&from.item("nodes", listed[0]) - from.list("nodes").data());
     return places[joint] * Eigen::Map<const Eigen::Matrix4d>(rows.data());
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_cursor.h"
@@ -29,6 +30,19 @@ std::string letters_of(std::string_view name) {
     return out;
 }
 
+/// The names of ARKit, by the letters of every way to write them. Recordings ask for one in each frame.
+std::map<std::string, std::string> known_spellings() {
+    std::map<std::string, std::string> out;
+    for (const std::string& known : track::arkit_names()) {
+        out.emplace(letters_of(known), known);
+        for (const std::string side : {"Left", "Right"})
+            if (known.ends_with(side))
+                out.emplace(letters_of(known.substr(0, known.size() - side.size()) + side[0]),
+                            known);
+    }
+    return out;
+}
+
 constexpr double kLongest_s = 3600;    // of a script
 constexpr double kLeastStep_s = 1e-6;  // of samples
 
@@ -51,14 +65,9 @@ std::string lower_case(std::string_view text) {
 }
 
 std::string arkit_spelling(std::string_view name) {
-    const std::string letters = letters_of(name);
-    for (const std::string& known : track::arkit_names())
-        for (const std::string& spelling :
-             {known, known.ends_with("Left")    ? known.substr(0, known.size() - 4) + "_L"
-                     : known.ends_with("Right") ? known.substr(0, known.size() - 5) + "_R"
-                                                : known})
-            if (letters_of(spelling) == letters) return known;
-    return {};
+    static const std::map<std::string, std::string> known = known_spellings();
+    const auto found = known.find(letters_of(name));
+    return found == known.end() ? std::string() : found->second;
 }
 
 std::array<double, 3> head_angles(const Mat3& turn) {
@@ -93,8 +102,7 @@ void MotionBuilder::set_head(const std::array<double, 3>& angles) {
 }
 
 void MotionBuilder::unmapped(const std::string& name) {
-    if (std::find(out_.unmapped.begin(), out_.unmapped.end(), name) == out_.unmapped.end())
-        out_.unmapped.push_back(name);
+    if (unmapped_.insert(name).second) out_.unmapped.push_back(name);
 }
 
 RecordedMotion MotionBuilder::finish(const std::string& place, const std::string& format,

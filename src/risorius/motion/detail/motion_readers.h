@@ -8,6 +8,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,6 +58,7 @@ class MotionBuilder {
 
   private:
     RecordedMotion out_;
+    std::set<std::string> unmapped_;  ///< those of out_
 };
 
 /// Leaves out eyeLook shapes where the angles of the eyes are recorded, and limits mouthClose to jawOpen, on which it counts.

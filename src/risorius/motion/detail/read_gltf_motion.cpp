@@ -88,6 +88,10 @@ RecordedMotion read_gltf_motion(const std::filesystem::path& file, double fps) {
                 head.push_back(&track);
         }
     }
+    constexpr std::size_t kMostBent = 16;
+    if (head.size() > kMostBent)
+        throw Error(file.string(), "at most 16 moving nodes called head or neck",
+                    std::to_string(head.size()));
     std::set<double> times;
     for (const Weight& weight : weights)
         times.insert(weight.track->times_s.begin(), weight.track->times_s.end());

@@ -99,6 +99,15 @@ Mat3 turn_of_bone(const std::vector<double>& numbers) {
     return q.norm() > 0 ? Mat3(q.normalized().toRotationMatrix()) : Mat3(Mat3::Identity());
 }
 
+/// The shapes that a sender's name stands for; none for other names.
+std::vector<std::string> shapes_of(const std::string& name) {
+    if (const std::string shape = arkit_spelling(name); !shape.empty()) return {shape};
+    if (name == "Blink" || name == "blink") return {"eyeBlinkLeft", "eyeBlinkRight"};
+    if (name == "Blink_L" || name == "blinkLeft") return {"eyeBlinkLeft"};
+    if (name == "Blink_R" || name == "blinkRight") return {"eyeBlinkRight"};
+    return {};
+}
+
 /// What has been sent since the last sample.
 class Sent {
   public:
@@ -115,26 +124,17 @@ class Sent {
     }
     /// Adds a sample of all values up to now.
     void apply(double line_s, MotionBuilder& out) {
-        for (const auto& [name, value] : waiting_) values_[name] = value;
+        for (const auto& [name, value] : waiting_) {
+            const std::vector<std::string> shapes = shapes_of(name);
+            if (shapes.empty()) out.unmapped(name);
+            for (const std::string& shape : shapes) values_[shape] = value;
+        }
         waiting_.clear();
         const double t_s = time_s_.value_or(line_s);
         // Senders may apply twice in one moment.
         if (out.size() > 0 && t_s == out.motion().times_s.back()) return;
         out.begin(t_s, true);
-        for (const auto& [name, value] : values_) {
-            if (const std::string shape = arkit_spelling(name); !shape.empty()) {
-                out.set(shape, value);
-            } else if (name == "Blink" || name == "blink") {
-                out.set("eyeBlinkLeft", value);
-                out.set("eyeBlinkRight", value);
-            } else if (name == "Blink_L" || name == "blinkLeft") {
-                out.set("eyeBlinkLeft", value);
-            } else if (name == "Blink_R" || name == "blinkRight") {
-                out.set("eyeBlinkRight", value);
-            } else {
-                out.unmapped(name);
-            }
-        }
+        for (const auto& [shape, value] : values_) out.set(shape, value);
         if (head_ || neck_)
             out.set_head(
                 head_angles(neck_.value_or(Mat3::Identity()) * head_.value_or(Mat3::Identity())));
@@ -142,7 +142,8 @@ class Sent {
 
   private:
     std::optional<double> time_s_;
-    std::map<std::string, double> waiting_, values_;
+    std::map<std::string, double> waiting_;  ///< by the sender's names
+    std::map<std::string, double> values_;   ///< of shapes
     std::optional<Mat3> head_, neck_;
 };
 
