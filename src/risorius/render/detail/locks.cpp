@@ -200,7 +200,8 @@ void add_cap(const LockGround& ground, const LockStyle& style, const Scene& scen
     cover_skin(ground, scene, ahead, right, reaches, hair);
 }
 
-/// Every third lock, with some six rows of it.
+/// Every third lock, with some six rows of it. The ends of hair that hangs throw none: a few strips of it would draw dark bars on
+/// the neck.
 void add_casters(Hair& hair) {
     constexpr unsigned kCasterRows = 6;
     std::size_t number = 0;
@@ -208,7 +209,8 @@ void add_casters(Hair& hair) {
         if (!piece.casts || number++ % 3 != 0) continue;
         const auto first = static_cast<unsigned>(piece.first_vertex),
                    columns = static_cast<unsigned>(piece.columns),
-                   rows = static_cast<unsigned>(piece.rows);
+                   all = static_cast<unsigned>(piece.rows),
+                   rows = piece.turns_away ? all : (all + 1) / 2;
         const unsigned step = std::max(rows / kCasterRows, 1U);
         for (unsigned row = 0; row + step < rows; row += step) {
             const unsigned a = first + columns * row, b = a + columns - 1, c = a + step * columns,

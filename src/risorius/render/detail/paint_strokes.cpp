@@ -73,9 +73,7 @@ bool on_bald_crown(const SkinPlan& plan, const Vec2& place, const Vec3& centre) 
 void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const EarMask& ears,
            RandomSequence& random, StrokePad& pad) {
     const double scalp_hair = scalp_paint(scene.appearance);
-    // In front of a cap of locks, whose border they break, roots stand closer.
     const bool capped = scene.appearance.hair_style != "shaven";
-    const double closer = capped ? 1.7 : 1, fringe = capped ? 0.42 : 0.22;
     if (scalp_hair <= 0 || plan.hairline[0] > 1) return;
     // Roots follow the low-discrepancy sequence of the plastic number (Roberts 2018); plain random points leave bald spots and
     // clusters.
@@ -93,8 +91,10 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
                      shade = random.next();
         const Vec2 root = Vec2(0.5, 0.5) + radius * Vec2(std::sin(turn), std::cos(turn));
         // The hairline is ragged, and thins out over a centimetre.
-        const double inside = closer * (radius - hairline_radius(plan, root)) / 0.034;
-        const double thick = std::clamp(inside + fringe, 0.0, 1.0);
+        // Over forehead and temples roots stand closer, and break the border of a cap of locks.
+        const double front = capped ? std::clamp((root.y() - 0.5) / 0.08, 0.0, 1.0) : 0.0;
+        const double inside = (1 + 0.7 * front) * (radius - hairline_radius(plan, root)) / 0.034;
+        const double thick = std::clamp(inside + 0.22 + 0.20 * front, 0.0, 1.0);
         if (keep > thick * thick * (3 - 2 * thick)) continue;
         if (on_bald_crown(plan, root, centre)) continue;
         Vec2 away = root - whorl;
