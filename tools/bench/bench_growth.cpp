@@ -93,7 +93,7 @@ struct Case {
 };
 
 struct SeriesPlan {
-    std::string name, size;
+    std::string name, size, label;  ///< `label`: for the key of the chart
     std::vector<Case> cases;
 };
 
@@ -105,7 +105,8 @@ geom::PolygonMesh refined(geom::PolygonMesh mesh, int times) {
 /// Steps of the demanding track, and the building of the face, for shells of several sizes.
 void add_nodes(const scene::RigFiles& files, const std::vector<int>& skin_vertices,
                std::vector<SeriesPlan>& plans) {
-    SeriesPlan steps{"a time step", "nodes", {}}, building{"building the face", "nodes", {}};
+    SeriesPlan steps{"a time step", "nodes", "step, nodes", {}},
+        building{"building the face", "nodes", "building, nodes", {}};
     for (const int vertices : skin_vertices) {
         const face::Quality quality = preview_with(vertices);
         const int refinements = vertices > kFinestShell ? 1 : 0;
@@ -136,8 +137,8 @@ void add_nodes(const scene::RigFiles& files, const std::vector<int>& skin_vertic
 /// Drawing a frame of 64 x 64 pixels, most of which is the work on the mesh's vertices.
 void add_vertices(const scene::RigFiles& files, const std::vector<int>& refinements,
                   std::vector<SeriesPlan>& plans) {
-    SeriesPlan drawing{"drawing 64 x 64 pixels", "vertices", {}},
-        building{"building the face and its view", "vertices", {}};
+    SeriesPlan drawing{"drawing 64 x 64 pixels", "vertices", "drawing, vertices", {}},
+        building{"building the face and its view", "vertices", "building, vertices", {}};
     for (const int times : refinements) {
         const double vertices = refined(files.mesh, times).vertex_count();
         // The mesh is made in the process that measures, whose memory is asked for.
@@ -199,7 +200,7 @@ animate::RenderRequest smile_of(const scene::RigFiles& files, const fs::path& fo
 
 void add_frames(const scene::RigFiles& files, const fs::path& folder,
                 const std::vector<int>& frames, std::vector<SeriesPlan>& plans) {
-    SeriesPlan videos{"a video of 64 x 64 pixels", "frames", {}};
+    SeriesPlan videos{"a video of 64 x 64 pixels", "frames", "video, frames", {}};
     for (const int count : frames) {
         const animate::RenderRequest request = smile_of(files, folder, count, 64);
         videos.cases.push_back({static_cast<double>(count), [request]() -> Measured {
@@ -214,7 +215,7 @@ void add_frames(const scene::RigFiles& files, const fs::path& folder,
 void add_threads(const scene::RigFiles& files, const fs::path& folder,
                  const std::vector<int>& threads, std::vector<SeriesPlan>& plans) {
     constexpr int kFrames = 60, kSize_px = 256;
-    SeriesPlan videos{"60 frames of 256 x 256 pixels", "threads", {}};
+    SeriesPlan videos{"60 frames of 256 x 256 pixels", "threads", "video, threads", {}};
     for (const int count : threads) {
         animate::RenderRequest request = smile_of(files, folder, kFrames, kSize_px);
         request.threads = count;
@@ -270,8 +271,11 @@ fs::path design_of(const scene::RigFiles& files, const fs::path& folder, int cli
 
 void add_clips(const scene::RigFiles& files, const fs::path& folder, const GrowthSizes& sizes,
                std::vector<SeriesPlan>& plans) {
-    SeriesPlan planned{"planning a set", "clips", {}},
-        rendered{"making a set of clips with two frames of 64 x 64 pixels", "clips", {}};
+    SeriesPlan planned{"planning a set", "clips", "planning, clips", {}},
+        rendered{"making a set of clips with two frames of 64 x 64 pixels",
+                 "clips",
+                 "making, clips",
+                 {}};
     for (const int clips : sizes.planned_clips) {
         const fs::path design = design_of(files, folder, clips);
         planned.cases.push_back({static_cast<double>(clips), [design]() -> Measured {
@@ -428,12 +432,12 @@ Json bench_growth(const scene::RigFiles& files, const fs::path& folder, const Gr
 void draw_growth(const Json& growth, const fs::path& folder) {
     plot::Chart chart;
     chart.name = "growth";
-    chart.x = {.label = "size, relative to the smallest of its series", .logarithmic = true};
-    chart.y = {.label = "processor time, relative to that of the smallest", .logarithmic = true};
+    chart.x = {.label = "size / smallest size", .logarithmic = true};
+    chart.y = {.label = "time / time of the smallest", .logarithmic = true};
     double furthest = 1;
     for (const Json& one : growth) {
         plot::Series series;
-        series.label = one["series"].get<std::string>() + ", " + one["size"].get<std::string>();
+        series.label = one["label"].get<std::string>();
         series.mark = plot::Mark::kLinePoints;
         const Json& first = one["cases"].front();
         for (const Json& at : one["cases"]) {
@@ -443,8 +447,9 @@ void draw_growth(const Json& growth, const fs::path& folder) {
         furthest = std::max(furthest, series.x.back());
         chart.series.push_back(std::move(series));
     }
-    for (const double power : {1.0, 1.3})
-        chart.series.push_back({.label = "size^" + format_number(power),
+    for (const auto& [power, label] :
+         {std::pair{1.0, "in proportion"}, std::pair{1.3, "power of 1.3"}})
+        chart.series.push_back({.label = label,
                                 .x = {1, furthest},
                                 .y = {1, std::pow(furthest, power)},
                                 .mark = plot::Mark::kDashed});
