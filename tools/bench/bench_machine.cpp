@@ -234,8 +234,10 @@ Json bench_rig(const fs::path& rig_file, const BenchOptions& options,
     out["preview"] = bench.simulate("preview");
     out["video"] = bench.simulate("video");
     out["fine"] = bench.simulate("fine");
-    out["fine_volume_muscles"] = bench.compare_solids();
-    out["steps"] = bench_steps(bench.files, usual_step_benches(), monitor);
+    if (options.tables) {
+        out["fine_volume_muscles"] = bench.compare_solids();
+        out["steps"] = bench_steps(bench.files, usual_step_benches(), monitor);
+    }
     out["pictures"] = bench_pictures(bench.files, scratch.path(), monitor);
     out["blend_shapes"] = bench_shapes(bench.files, {}, monitor);
     out["whole_way"] = bench.whole_way(scratch);
@@ -317,6 +319,7 @@ Json bench_machine(const BenchOptions& options, const ProgressMonitor& monitor) 
     out["solids"] = Json::array();
     if (options.only_steps || options.only_poses || options.only_pictures || options.only_shapes)
         return out;
+    if (options.faces && !options.tables) return out;
     ProgressMonitor solids = monitor;
     if (monitor.progress)
         solids.progress = [&](double fraction, const std::string& what) {

@@ -23,7 +23,6 @@ struct BenchArguments {
     bool only_solids = false;
     std::filesystem::path csv;
     std::string month;
-    bool tables = false;
 };
 
 void print_solids(const Json& report) {
@@ -213,7 +212,7 @@ void run(const BenchArguments& arguments) {
     if (arguments.common.json)
         std::printf("%s", text.c_str());
     else if (!arguments.common.quiet)
-        show(report, arguments.tables);
+        show(report, arguments.options.tables);
 }
 
 }  // namespace
@@ -301,8 +300,10 @@ void add_bench(CLI::App& app) {
     command->add_option("--month", arguments->month, "The month in --csv, for instance 2026-11")
         ->needs("--csv");
     command->get_option("--csv")->needs("--month");
-    command->add_flag("--tables", arguments->tables,
-                      "Print all that was measured, not only the page about this machine");
+    command->add_flag(
+        "--tables", arguments->options.tables,
+        "Measure and print more than the page about this machine shows: solids, and errors of "
+        "steps. Takes a quarter of an hour");
     add_common(*command, arguments->common);
     command->footer("Example:\n  risorius bench --rig rigs/adult/rig.json -o bench.json");
     command->callback([arguments] { run(*arguments); });
