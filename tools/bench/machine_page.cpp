@@ -125,15 +125,11 @@ std::vector<Speed> speeds_of(const Json& pictures) {
     std::vector<Speed> out;
     for (const Json& one : pictures) {
         const std::string size = size_of(one);
-        if (out.empty() || out.back().size != size) {
-            const auto same = std::find_if(out.begin(), out.end(),
-                                           [&](const Speed& s) { return s.size == size; });
-            if (same == out.end())
-                out.push_back(
-                    {size, 0, 0, one["width_px"].get<int>() * one["height_px"].get<int>()});
-        }
-        const auto at =
-            std::find_if(out.begin(), out.end(), [&](const Speed& s) { return s.size == size; });
+        auto at = std::find_if(out.begin(), out.end(),
+                               [&](const Speed& speed) { return speed.size == size; });
+        if (at == out.end())
+            at = out.insert(at,
+                            {size, 0, 0, one["width_px"].get<int>() * one["height_px"].get<int>()});
         (one["draft"].get<bool>() ? at->draft_fps : at->usual_fps) = one["fps"].get<double>();
     }
     std::sort(out.begin(), out.end(),
@@ -224,37 +220,20 @@ std::vector<PageRow> page_rows(const Json& report) {
     const Json& rig = rigs.front();
     const std::string head = rig["name"].get<std::string>();
     const int cores = report["machine"]["cores"].get<int>();
+    const auto add = [&](const std::string& label, const std::string& what, const char* quantity,
+                         const char* unit, int used_cores, double value) {
+        rows.push_back({label, head, what, quantity, unit, used_cores, value});
+    };
     for (const char* quality : {"preview", "video", "fine"})
-        rows.push_back({.label = std::string("a step of 1/60 s, ") + quality + ", one core",
-                        .head = head,
-                        .what = quality,
-                        .quantity = "step",
-                        .unit = "ms",
-                        .cores = 1,
-                        .value = rig[quality]["step_ms"].get<double>()});
-    rows.push_back({.label = "a frame of 52 blend shapes, one core",
-                    .head = head,
-                    .what = "blend shapes",
-                    .quantity = "frame",
-                    .unit = "ms",
-                    .cores = 1,
-                    .value = rig["blend_shapes"]["frame_ms"].get<double>()});
-    rows.push_back({.label = "building the face",
-                    .head = head,
-                    .what = "preview",
-                    .quantity = "build",
-                    .unit = "s",
-                    .cores = 1,
-                    .value = rig["preview"]["build_s"].get<double>()});
+        add(std::string("a step of 1/60 s, ") + quality + ", one core", quality, "step", "ms", 1,
+            rig[quality]["step_ms"].get<double>());
+    add("a frame of 52 blend shapes, one core", "blend shapes", "frame", "ms", 1,
+        rig["blend_shapes"]["frame_ms"].get<double>());
+    add("building the face", "preview", "build", "s", 1, rig["preview"]["build_s"].get<double>());
     for (const Json& one : rig["pictures"]) {
-        const std::string draft = one["draft"].get<bool>() ? " draft" : "";
-        rows.push_back({.label = "a video of " + size_of(one) + draft + ", all cores",
-                        .head = head,
-                        .what = size_of(one) + draft,
-                        .quantity = "frames_per_second",
-                        .unit = "1/s",
-                        .cores = cores,
-                        .value = one["fps"].get<double>()});
+        const std::string what = size_of(one) + (one["draft"].get<bool>() ? " draft" : "");
+        add("a video of " + what + ", all cores", what, "frames_per_second", "1/s", cores,
+            one["fps"].get<double>());
     }
     return rows;
 }
