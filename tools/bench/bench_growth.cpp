@@ -316,8 +316,11 @@ Json measured(const SeriesPlan& plan, double done, double all, const ProgressMon
         before_size = size;
         before_s = seconds;
     }
-    return json_object(
-        {{"series", plan.name}, {"size", plan.size}, {"cases", cases}, {"exponents", exponents}});
+    return json_object({{"series", plan.name},
+                        {"size", plan.size},
+                        {"label", plan.label},
+                        {"cases", cases},
+                        {"exponents", exponents}});
 }
 
 }  // namespace
