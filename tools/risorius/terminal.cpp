@@ -28,7 +28,7 @@ std::optional<double> asked_line_every_s() {
     return std::nullopt;
 }
 
-std::string time_text(double seconds) {
+std::string minutes_text(double seconds) {
     const int whole = static_cast<int>(seconds + 0.5);
     char text[32];
     std::snprintf(text, sizeof text, "%d:%02d", whole / 60, whole % 60);
@@ -70,7 +70,7 @@ void ProgressBar::show(double fraction, const std::string& what) {
     const std::string bar = std::string(static_cast<std::size_t>(full), '#') +
                             std::string(static_cast<std::size_t>(kWidth - full), '.');
     const std::string left =
-        fraction > 0.01 ? time_text(since(begin_) * (1 - fraction) / fraction) + " left" : "";
+        fraction > 0.01 ? minutes_text(since(begin_) * (1 - fraction) / fraction) + " left" : "";
     const int percent = static_cast<int>(100 * fraction);
     if (on_terminal_)
         std::fprintf(stderr, "\r\033[K[%s] %3d %%  %s  %s", bar.c_str(), percent, left.c_str(),

@@ -23,7 +23,7 @@ std::vector<double> read_sizes(const JsonCursor& json) {
     return values;
 }
 
-Points read_points(const JsonCursor& json) {
+Points read_places(const JsonCursor& json) {
     const std::vector<JsonCursor> rows = json.items();
     Points points(static_cast<Eigen::Index>(rows.size()), 3);
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -46,8 +46,8 @@ Triangles read_triangles(const JsonCursor& json, Eigen::Index vertices) {
 
 void read_path(const JsonCursor& json, MuscleShape& shape) {
     json.allow_keys({"path_m", "outward", "width_m", "thickness_m", "section", "equal_volume"});
-    shape.path_m = read_points(json.at("path_m"));
-    if (const auto v = json.find("outward")) shape.outward = read_points(*v);
+    shape.path_m = read_places(json.at("path_m"));
+    if (const auto v = json.find("outward")) shape.outward = read_places(*v);
     shape.widths_m = read_sizes(json.at("width_m"));
     shape.thicknesses_m = read_sizes(json.at("thickness_m"));
     if (const auto v = json.find("section"))
@@ -58,10 +58,10 @@ void read_path(const JsonCursor& json, MuscleShape& shape) {
 void read_surface(const JsonCursor& json, MuscleShape& shape) {
     json.allow_keys({"points_m", "triangles", "path_m", "outward", "tip_ratio", "equal_volume"});
     shape.equal_volume = true;
-    shape.surface_m = read_points(json.at("points_m"));
+    shape.surface_m = read_places(json.at("points_m"));
     shape.triangles = read_triangles(json.at("triangles"), shape.surface_m.rows());
-    if (const auto v = json.find("path_m")) shape.path_m = read_points(*v);
-    if (const auto v = json.find("outward")) shape.outward = read_points(*v);
+    if (const auto v = json.find("path_m")) shape.path_m = read_places(*v);
+    if (const auto v = json.find("outward")) shape.outward = read_places(*v);
     if (const auto v = json.find("tip_ratio")) shape.tip_ratio = v->number({0.001, 0.25});
 }
 

@@ -8,7 +8,7 @@ namespace risorius::solve {
 namespace {
 
 constexpr int kMaxSteps = 100;
-constexpr double kTolerance = 1e-10;  // of the residual, relative to y
+constexpr double kSmallOfResidual = 1e-10;  // of the residual, relative to y
 
 /// The convex function of r whose gradient is r + B max(0, B^T r - cost) / ridge - y.
 double merit(const Eigen::VectorXd& r, const Eigen::VectorXd& pull, const Eigen::VectorXd& y,
@@ -23,7 +23,7 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& B, const Eigen:
                                           Eigen::VectorXd& residual) {
     Eigen::VectorXd r = residual.size() == y.size() ? residual : y;
     Eigen::VectorXd pull = B.transpose() * r - cost;
-    const double small = kTolerance * std::max(1.0, y.norm());
+    const double small = kSmallOfResidual * std::max(1.0, y.norm());
     for (int step = 0; step < kMaxSteps; ++step) {
         const Eigen::VectorXd gradient = r + B * pull.cwiseMax(0.0) / ridge - y;
         if (gradient.norm() <= small) break;

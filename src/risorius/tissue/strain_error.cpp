@@ -8,11 +8,11 @@ namespace risorius::tissue {
 namespace {
 
 /// The recovered quantities: metric strain, and dilatation as in the volume energy.
-struct Strain {
+struct SmoothStrain {
     Mat3 metric = Mat3::Zero();
     double dilatation = 0;  ///< (V_c - V_c0) / (h1 h2 h3), m^3; with moduli V_c / V_c0 - 1
 
-    void add(double weight, const Strain& other) {
+    void add(double weight, const SmoothStrain& other) {
         metric += weight * other.metric;
         dilatation += weight * other.dilatation;
     }
@@ -20,7 +20,7 @@ struct Strain {
 
 struct CellStrain {
     std::array<Mat3, 8> point;  ///< metric strain at the Gauss points
-    Strain mean;
+    SmoothStrain mean;
 };
 
 std::vector<CellStrain> strain_of_cells(const CellSolid& solid, const Points& vertices) {
@@ -42,8 +42,9 @@ std::vector<CellStrain> strain_of_cells(const CellSolid& solid, const Points& ve
 }
 
 /// Means over the cells around each vertex, weighted by size.
-std::vector<Strain> strain_of_vertices(const CellMesh& mesh, const std::vector<CellStrain>& cells) {
-    std::vector<Strain> mean(static_cast<std::size_t>(mesh.vertex_count()));
+std::vector<SmoothStrain> strain_of_vertices(const CellMesh& mesh,
+                                             const std::vector<CellStrain>& cells) {
+    std::vector<SmoothStrain> mean(static_cast<std::size_t>(mesh.vertex_count()));
     std::vector<double> whole(mean.size(), 0.0);
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const double weight = mesh.cells()[c].size.prod();
@@ -59,7 +60,7 @@ std::vector<Strain> strain_of_vertices(const CellMesh& mesh, const std::vector<C
     // Hanging vertices follow their nodes. Otherwise E* would jump towards the larger cell beside them.
     for (std::size_t h = 0; h < mesh.hanging().size(); ++h) {
         const CellMesh::Hanging& hanging = mesh.hanging()[h];
-        Strain sum;
+        SmoothStrain sum;
         for (int k = 0; k < hanging.count; ++k)
             sum.add(1.0 / hanging.count,
                     mean[static_cast<std::size_t>(hanging.node[static_cast<std::size_t>(k)])]);
@@ -74,7 +75,7 @@ std::vector<Mat3> smooth_strain(const CellSolid& solid, const Points& x) {
     const auto mean = strain_of_vertices(solid.mesh(), strain_of_cells(solid, solid.vertices(x)));
     std::vector<Mat3> strain;
     strain.reserve(mean.size());
-    for (const Strain& one : mean) strain.push_back(one.metric);
+    for (const SmoothStrain& one : mean) strain.push_back(one.metric);
     return strain;
 }
 
@@ -82,7 +83,7 @@ Eigen::VectorXd squared_error(const CellSolid& solid, const Points& x) {
     const CellMesh& mesh = solid.mesh();
     const CellBody& body = solid.body();
     const std::vector<CellStrain> strain = strain_of_cells(solid, solid.vertices(x));
-    const std::vector<Strain> mean = strain_of_vertices(mesh, strain);
+    const std::vector<SmoothStrain> mean = strain_of_vertices(mesh, strain);
 
     constexpr double kNear = 0.5 + 0.28867513459481288225;  // (1 + 1/sqrt 3) / 2
     Eigen::VectorXd squared(static_cast<Eigen::Index>(strain.size()));
@@ -98,7 +99,7 @@ Eigen::VectorXd squared_error(const CellSolid& solid, const Points& x) {
             const auto weight =
                 trilinear_weights(Vec3((g & 4) ? kNear : 1 - kNear, (g & 2) ? kNear : 1 - kNear,
                                        (g & 1) ? kNear : 1 - kNear));
-            Strain smooth;
+            SmoothStrain smooth;
             for (std::size_t k = 0; k < 8; ++k)
                 smooth.add(weight[k], mean[static_cast<std::size_t>(cell.vertex[k])]);
             const Mat3 off = strain[c].point[g] - smooth.metric;

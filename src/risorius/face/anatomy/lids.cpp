@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "risorius/geom/polyline.h"
 
@@ -10,7 +11,6 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kPlaces = 121;  // samples of the tables over s
 constexpr double kFirstPlace = -0.25, kLastPlace = 1.25;
 constexpr double kLowest = -1.3, kAngle = 0.002;  // rad, range and step of the scan for the fissure
@@ -201,7 +201,7 @@ double EyeLids::firmness(const LidMember& member, double upper_core, double uppe
 // At the canthi both lids rotate alike, by less than half of the way.
 double EyeLids::gaze_turn(double place, double own_rad, double other_rad) const {
     const double s = std::clamp(place, 0.0, 1.0);
-    const double apart = std::sqrt(std::sin(kPi * s));
+    const double apart = std::sqrt(std::sin(std::numbers::pi * s));
     const double together = 0.75 * 0.5 * (own_rad + other_rad);
     return (together + apart * (own_rad - together)) *
            (1.0 - geom::smoothstep(0, 7.0 * millimetre_, beyond_m(place)));
@@ -224,9 +224,9 @@ EyeLids::Curves EyeLids::curves(double place, const LidPose& pose) const {
 double EyeLids::slide_m(double place, bool upper, const LidPose& pose) const {
     if (pose.inward == 0 && pose.aside_rad == 0) return 0.0;
     const double s = std::clamp(place, 0.0, 1.0);
-    const double inward =
-        upper ? 2.2 * std::sin(kPi * std::pow(s, 0.6)) : 3.0 * std::sin(kPi * std::pow(s, 0.75));
-    const double aside = pose.aside_rad * zone_m_ * (0.5 + 0.5 * std::sin(kPi * s)) *
+    const double inward = upper ? 2.2 * std::sin(std::numbers::pi * std::pow(s, 0.6))
+                                : 3.0 * std::sin(std::numbers::pi * std::pow(s, 0.75));
+    const double aside = pose.aside_rad * zone_m_ * (0.5 + 0.5 * std::sin(std::numbers::pi * s)) *
                          (1.0 - geom::smoothstep(0, 7.0 * millimetre_, beyond_m(place)));
     return -pose.inward * inward * millimetre_ + to_left_ * aside;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "risorius/core/counter_rng.h"
@@ -15,7 +16,6 @@ namespace {
 
 constexpr double kHold_s = 0.2;   // time between two draws of active muscles
 constexpr double kSwing_s = 0.5;  // time between two targets of jaw and head
-constexpr double kPi = 3.14159265358979323846;
 
 struct Goal {
     track::Kinematic channel;
@@ -65,7 +65,7 @@ DriveAt stress_drive(const track::ChannelTable& channels, const StressOptions& o
                 drive.excitation[c] = min[c] + (1 - min[c]) * chance(options.seed, 2, hold, c);
         const long swing = static_cast<long>(t_s / kSwing_s);
         const double place = t_s / kSwing_s - static_cast<double>(swing);
-        const double fraction = 0.5 * (1 - std::cos(kPi * place));
+        const double fraction = 0.5 * (1 - std::cos(std::numbers::pi * place));
         long column = 0;
         for (const Goal& goal : kGoals) {
             // The motion starts and ends at rest

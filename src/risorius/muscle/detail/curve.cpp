@@ -12,7 +12,7 @@ namespace risorius::muscle {
 
 namespace {
 
-using Form = CurvePiece::Form;
+using CurveForm = CurvePiece::Form;
 
 /// Sum of p[j] s^(j+1): one coordinate of a corner, relative to its start.
 struct Quintic {
@@ -74,15 +74,15 @@ struct Corner {
 
 double value_of(const CurvePiece& p, double u) {
     switch (p.form) {
-        case Form::kCubic:
+        case CurveForm::kCubic:
             return p.c0 + u * (p.c1 + u * (p.c2 + u * p.c3));
-        case Form::kExponential:
+        case CurveForm::kExponential:
             return p.c0 + p.c1 * u + p.c2 * std::expm1(p.k * u);
-        case Form::kHyperbola:
+        case CurveForm::kHyperbola:
             return p.c0 + p.c1 * u + p.c2 / (1 + p.k * u);
-        case Form::kGaussian:
+        case CurveForm::kGaussian:
             return p.c0 + p.c1 * u + p.c2 * std::exp(-(p.k * u) * (p.k * u));
-        case Form::kCorner: {
+        case CurveForm::kCorner: {
             const Corner corner(p);
             return p.c0 + corner.y.at(corner.parameter(u));
         }
@@ -92,17 +92,17 @@ double value_of(const CurvePiece& p, double u) {
 
 double slope_of(const CurvePiece& p, double u) {
     switch (p.form) {
-        case Form::kCubic:
+        case CurveForm::kCubic:
             return p.c1 + u * (2 * p.c2 + u * 3 * p.c3);
-        case Form::kExponential:
+        case CurveForm::kExponential:
             return p.c1 + p.c2 * p.k * std::exp(p.k * u);
-        case Form::kHyperbola: {
+        case CurveForm::kHyperbola: {
             const double d = 1 + p.k * u;
             return p.c1 - p.c2 * p.k / (d * d);
         }
-        case Form::kGaussian:
+        case CurveForm::kGaussian:
             return p.c1 - 2 * p.c2 * p.k * (p.k * u) * std::exp(-(p.k * u) * (p.k * u));
-        case Form::kCorner:
+        case CurveForm::kCorner:
             break;  // handled by corner_at
     }
     return 0;
@@ -112,15 +112,15 @@ double slope_of(const CurvePiece& p, double u) {
 double integral_of(const CurvePiece& p, double u) {
     const double line = u * (p.c0 + u * p.c1 / 2);
     switch (p.form) {
-        case Form::kCubic:
+        case CurveForm::kCubic:
             return line + u * u * u * (p.c2 / 3 + u * p.c3 / 4);
-        case Form::kExponential:
+        case CurveForm::kExponential:
             return line + p.c2 * (std::expm1(p.k * u) / p.k - u);
-        case Form::kHyperbola:
+        case CurveForm::kHyperbola:
             return line + p.c2 * std::log1p(p.k * u) / p.k;
-        case Form::kGaussian:
+        case CurveForm::kGaussian:
             return line + p.c2 * std::erf(p.k * u) / (p.k * 2 * std::numbers::inv_sqrtpi);
-        case Form::kCorner:
+        case CurveForm::kCorner:
             return u * p.c0 + Corner(p).integral(Corner(p).parameter(u));
     }
     return 0;
@@ -140,7 +140,7 @@ CurvePiece hermite_piece(double x0, double f0, double s0, double x1, double f1, 
     const double chord = (f1 - f0) / h;
     return {.end = x1,
             .origin = x0,
-            .form = Form::kCubic,
+            .form = CurveForm::kCubic,
             .c0 = f0,
             .c1 = s0,
             .c2 = (3 * chord - 2 * s0 - s1) / h,
@@ -148,7 +148,7 @@ CurvePiece hermite_piece(double x0, double f0, double s0, double x1, double f1, 
 }
 
 CurvePiece line_piece(double x, double f, double slope, double end) {
-    return {.end = end, .origin = x, .form = Form::kCubic, .c0 = f, .c1 = slope};
+    return {.end = end, .origin = x, .form = CurveForm::kCubic, .c0 = f, .c1 = slope};
 }
 
 CurvePiece toe_piece(double x0, double x1, double height, double k) {
@@ -156,7 +156,7 @@ CurvePiece toe_piece(double x0, double x1, double height, double k) {
     const double rate = k / (x1 - x0);
     return {.end = x1,
             .origin = x0,
-            .form = Form::kExponential,
+            .form = CurveForm::kExponential,
             .c1 = -scale * rate,
             .c2 = scale,
             .k = rate};
@@ -172,7 +172,7 @@ CurvePiece corner_piece(double x0, double f0, double s0, double x1, double f1, d
             "corner_piece: the lines through the ends have to meet between them");
     return {.end = x1,
             .origin = x0,
-            .form = Form::kCorner,
+            .form = CurveForm::kCorner,
             .c0 = f0,
             .c1 = f1,
             .c2 = corner,
@@ -214,7 +214,7 @@ Curve::Value Curve::at(double x) const {
     const std::size_t i = piece_of(x);
     const CurvePiece& p = pieces_[i];
     const double u = x - p.origin;
-    if (p.form == Form::kCorner) {
+    if (p.form == CurveForm::kCorner) {
         const Value v = corner_at(p, u);
         return {v.value, v.slope, integral_at_origin_[i] + v.integral};
     }

@@ -10,7 +10,8 @@ namespace {
 
 /// Camera distance in object radii, a mild perspective: near edges appear at most 1.4 times as long as far ones
 constexpr double kDistancePerReach = 6.0;
-constexpr double kMargin = 0.05;  ///< fraction of the shorter side of the picture, on all sides
+constexpr double kMarginAround =
+    0.05;  ///< fraction of the shorter side of the picture, on all sides
 /// Minimum of object radius over distance from the origin: GL floats have six digits
 constexpr double kMinReach = 1e-3;
 /// Minimum tangent that the picture spans, for objects that are a single point
@@ -85,7 +86,7 @@ ObjectRow frame_objects(const std::vector<const Points*>& objects, const ObjectA
     width += gap * (count - 1);
 
     // The scale at which the row fills the picture up to the margin
-    const double margin_px = kMargin * std::min(width_px, height_px);
+    const double margin_px = kMarginAround * std::min(width_px, height_px);
     const double tangent_per_px =
         std::max({width / (width_px - 2 * margin_px), (top - bottom) / (height_px - 2 * margin_px),
                   kMinWidth / width_px});

@@ -30,7 +30,7 @@ constexpr double kBallPerCell = 0.13;  ///< radius, ratio to the cell
 constexpr double kMinBall_px = 3.5, kMaxBall_px = 9.0;
 constexpr double kNearerPerCell = 0.5;  ///< ratio to the cell by which wires are moved nearer
 
-struct Part {
+struct PartByDepth {
     double depth;  ///< from the camera, m
     std::size_t begin, end;
 };
@@ -51,11 +51,12 @@ class Parts {
         add_wires();
         add_balls();
         // Parts of equal depth keep their order.
-        std::stable_sort(parts_.begin(), parts_.end(),
-                         [](const Part& a, const Part& b) { return a.depth > b.depth; });
+        std::stable_sort(
+            parts_.begin(), parts_.end(),
+            [](const PartByDepth& a, const PartByDepth& b) { return a.depth > b.depth; });
         std::vector<PartVertex> ordered;
         ordered.reserve(vertices_.size());
-        for (const Part& part : parts_)
+        for (const PartByDepth& part : parts_)
             ordered.insert(ordered.end(),
                            vertices_.begin() + static_cast<std::ptrdiff_t>(part.begin),
                            vertices_.begin() + static_cast<std::ptrdiff_t>(part.end));
@@ -189,7 +190,7 @@ class Parts {
     const ObjectCamera& camera_;
     double cell_;  ///< mean length of a wire
     std::vector<PartVertex> vertices_;
-    std::vector<Part> parts_;
+    std::vector<PartByDepth> parts_;
 };
 
 void check_index(int v, Eigen::Index vertices, const std::string& place) {

@@ -46,7 +46,7 @@ Json described(const char* text, const char* units = "") {
 }
 
 /// A measure as the catalogue has it: six decimals.
-Json rounded(double value) { return Json(std::round(1e6 * value) / 1e6); }
+Json rounded_json(double value) { return Json(std::round(1e6 * value) / 1e6); }
 
 /// The columns for what is seen to move.
 void add_motion(const std::vector<Json>& records, std::vector<Column>& columns) {
@@ -55,13 +55,13 @@ void add_motion(const std::vector<Json>& records, std::vector<Column>& columns) 
             const Json& frame = records[i].at("motion").at(key);
             return frame.is_null()
                        ? Json()
-                       : rounded(frame.get<double>() / records[i].at("fps").get<double>());
+                       : rounded_json(frame.get<double>() / records[i].at("fps").get<double>());
         };
     };
     const auto measure = [&](const char* key) {
         return [&records, key](std::size_t i) {
             const Json& value = records[i].at("motion").at(key);
-            return value.is_number() ? rounded(value.get<double>()) : value;
+            return value.is_number() ? rounded_json(value.get<double>()) : value;
         };
     };
     columns.push_back({"seen_mm",
@@ -78,7 +78,7 @@ void add_motion(const std::vector<Json>& records, std::vector<Column>& columns) 
              const Json &seen = motion.at("seen_mm"), &full = motion.at("full_mm");
              return seen.is_null() || full.is_null() || !(full.get<double>() > 0)
                         ? Json()
-                        : rounded(seen.get<double>() / full.get<double>());
+                        : rounded_json(seen.get<double>() / full.get<double>());
          }});
     columns.push_back(
         {"full_mm", described("What seen_share is a share of", "mm"), measure("full_mm")});
@@ -139,7 +139,7 @@ void add_norms(const BatchPlan& plan, const Norms& norms, std::vector<Column>& c
     };
     const auto share = [&](double (Share::*value)() const) {
         return of_clip([value](const Norms::OfClip& clip) {
-            return clip.hits.count > 0 ? rounded((clip.hits.*value)()) : Json();
+            return clip.hits.count > 0 ? rounded_json((clip.hits.*value)()) : Json();
         });
     };
     columns.push_back({"norm_ratings", described("Answers of raters"),
@@ -159,7 +159,8 @@ void add_norms(const BatchPlan& plan, const Norms& norms, std::vector<Column>& c
             columns.push_back({"norm_" + scale, described("Mean rating"),
                                of_clip([scale](const Norms::OfClip& clip) {
                                    const auto mean = clip.means.find(scale);
-                                   return mean == clip.means.end() ? Json() : rounded(mean->second);
+                                   return mean == clip.means.end() ? Json()
+                                                                   : rounded_json(mean->second);
                                })});
     }
 }
@@ -177,7 +178,7 @@ void add_halves(const std::vector<Json>& records, std::vector<Column>& columns) 
              described("Of a chimeric clip: farthest way of a landmark of this half", "mm"),
              [measure](std::size_t i) {
                  const Json mm = measure(i, "seen_mm");
-                 return mm.is_null() ? mm : rounded(mm.get<double>());
+                 return mm.is_null() ? mm : rounded_json(mm.get<double>());
              }});
         columns.push_back(
             {name + "_share",
@@ -187,7 +188,7 @@ void add_halves(const std::vector<Json>& records, std::vector<Column>& columns) 
                  const Json mm = measure(i, "seen_mm"), full = measure(i, "full_mm");
                  return mm.is_null() || full.is_null() || !(full.get<double>() > 0)
                             ? Json()
-                            : rounded(mm.get<double>() / full.get<double>());
+                            : rounded_json(mm.get<double>() / full.get<double>());
              }});
     }
 }
@@ -293,7 +294,7 @@ std::vector<Column> columns_of(const BatchPlan& plan, const std::vector<Json>& r
     const auto of_seam = [&](const char* key) {
         return [&records, key](std::size_t i) {
             return records[i].contains("seam")
-                       ? rounded(records[i].at("seam").at(key).get<double>())
+                       ? rounded_json(records[i].at("seam").at(key).get<double>())
                        : Json();
         };
     };
@@ -360,7 +361,7 @@ Catalogue sample_of(const BatchPlan& plan, const std::vector<Json>& records) {
             for (std::size_t k = 0; k < design::course_parameters().size(); ++k)
                 out.table += "\t" + format_number(design::parameter(unit, k));
             const Json& seen = records[i].at("motion").at("seen_mm");
-            out.table += "\t" + catalogue_cell(seen.is_null() ? seen : rounded(seen)) + "\n";
+            out.table += "\t" + catalogue_cell(seen.is_null() ? seen : rounded_json(seen)) + "\n";
         }
     }
     out.columns = json_object(

@@ -26,7 +26,7 @@ constexpr double kTarsalPlate_pa_per_m = 5e6;  // tarsal plate holding its lid
 // opening jaw takes a third of its base away. Estimates; with them the measured jawOpen of ICT is met best.
 constexpr double kFloorShearRatio = 0.5, kFloorBulkRatio = 2.5;
 
-constexpr double kMouth_mm = 20;  // radius around the line between the lips, average adult
+constexpr double kAboutMouth_mm = 20;  // radius around the line between the lips, average adult
 
 }  // namespace
 
@@ -274,7 +274,8 @@ LocalSolve FaceTissue::make_mouth(double h) const {
     std::vector<char> moves(static_cast<std::size_t>(nodes()), 0);
     for (std::size_t v = 0; v < shell_.vertex.size(); ++v) {
         const Vec3 p = mesh_.nodes.row(node_of(static_cast<int>(v), kSkin)).transpose();
-        if (shell_.fixed[v] || geom::distance_to_polyline(p, lips_) > head_.mm(kMouth_mm)) continue;
+        if (shell_.fixed[v] || geom::distance_to_polyline(p, lips_) > head_.mm(kAboutMouth_mm))
+            continue;
         for (Layer layer : {kDeep, kMiddle, kSkin})
             moves[static_cast<std::size_t>(node_of(static_cast<int>(v), layer))] = 1;
     }
