@@ -53,6 +53,13 @@ TEST(RigInfo, PrintsTheForcesThatAreSimulated) {
     EXPECT_EQ(models.at("none"), 2) << "levator palpebrae and the tarsal muscle move the lid only";
 }
 
+TEST(RigInfo, NamesEveryChannelThatAScriptMayUse) {
+    const Json info = rig_info(rig::adult_rig_file());
+    EXPECT_EQ(info["arkit"].size(), 52U);  // as ARKit's ARFaceAnchor.BlendShapeLocation has
+    EXPECT_EQ(info["arkit"][0], rig::adult().rig.facs.arkit[0].name);
+    EXPECT_EQ(info["action_units"][0]["id"], "AU1");
+}
+
 TEST(RigInfo, PrintsTheForcesOfBundlesOnALargerHead) {
     rig::RigDescription rig = rig::adult().rig;
     rig.solids.clear();

@@ -140,10 +140,32 @@ TEST(Lettering, InkStaysWithinTheWidthOfTheText) {
     }
 }
 
+TEST(Lettering, SignsStandAboveTheirLetters) {
+    const auto ink = [](const std::string& text, int from_y, int to_y) {
+        Image image(60, 60);
+        std::fill(image.rgba.begin(), image.rgba.end(), std::uint8_t{255});
+        write_text(text, {20, 40}, {.height_px = 20}, image);
+        double sum = 0;
+        for (int y = from_y; y < to_y; ++y)
+            for (int x = 0; x < 60; ++x) sum += 255 - image.pixel(x, y)[0];
+        return sum;
+    };
+    for (const auto& [with, without] :
+         {std::pair{"ä", "a"}, {"ö", "o"}, {"å", "a"}, {"é", "e"}, {"ñ", "n"}, {"č", "c"}}) {
+        EXPECT_DOUBLE_EQ(text_width(with), text_width(without));
+        EXPECT_EQ(ink(with, 26, 60), ink(without, 26, 60))
+            << with;  // from the top of small letters
+        EXPECT_EQ(ink(without, 0, 25), 0) << without;
+        EXPECT_GT(ink(with, 0, 25), 500) << with;
+    }
+    EXPECT_GT(ink("Ž", 0, 19), 500);
+    EXPECT_EQ(ink("Z", 0, 18), 0);
+}
+
 TEST(Lettering, TheSameLetterIsAsWideInAnyWord) {
     EXPECT_DOUBLE_EQ(text_width("mouth") - text_width("mout"), text_width("ah") - text_width("a"));
     EXPECT_EQ(text_width(""), 0);
-    EXPECT_DOUBLE_EQ(text_width("\xC3\xA4"), text_width("\x01"));  // a box, not two
+    EXPECT_DOUBLE_EQ(text_width("\u0414"), text_width("\x01"));  // a box, not two
 }
 
 }  // namespace

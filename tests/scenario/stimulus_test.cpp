@@ -300,6 +300,22 @@ TEST(Comparison, SheetOfCamerasHasAColumnForEachAndPicturesBesideThem) {
         for (int x = 0; x < sheet.width_px; ++x)
             reds += sheet.pixel(x, y)[0] == 200 && sheet.pixel(x, y)[1] == 10;
     EXPECT_EQ(reds, 20 * 40);
+    // Captions stand in place of the names of the views.
+    options.captions = {"one", "two"};
+    EXPECT_EQ(risorius::message_of([&] { animate::make_sheet(options); }),
+              "captions: expected a caption for each of 3 columns, found 2");
+    options.captions = {"", "", ""};
+    animate::make_sheet(options);
+    const Image bare = media::read_png(options.out);
+    const auto ink_above = [&](const Image& image) {
+        int dark = 0;
+        for (int y = 0; y < 40; ++y)
+            for (int x = 0; x < image.width_px; ++x) dark += image.pixel(x, y)[1] < 128;
+        return dark;
+    };
+    EXPECT_GT(ink_above(sheet), 50);
+    EXPECT_EQ(ink_above(bare), 0);
+    options.captions = {};
     options.cameras = {"below"};
     EXPECT_NE(risorius::message_of([&] {
                   animate::make_sheet(options);

@@ -205,11 +205,12 @@ void add_evaluate(CLI::App& app) {
     command->add_option("--like", arguments->like,
                         "Instead of --shapes: a rig to compare the expressions of RIG with");
     command->add_flag("--facs", arguments->facs,
-                      "Instead of --shapes: read the action units of RIG as a coder measures them: "
+                      "Instead of --shapes: measure the action units of RIG as a FACS coder would: "
                       "landmarks against the targets of its table, eye opening, mouth");
     command->add_flag("--kit", arguments->units.kit,
-                      "With --facs and --out: also make a kit for coders, clips without names that "
-                      "show units and combinations in a random order, a sheet to fill in, and the "
+                      "With --facs and --out: also make a kit for coders, clips whose names do not "
+                      "tell what they show, of units and combinations in a random order, a sheet "
+                      "to fill in, and the "
                       "key to it");
     command
         ->add_option("--seed", arguments->units.seed, "The order of the clips of the kit, a number")

@@ -172,8 +172,8 @@ void add_fit(CLI::App& app) {
     command->add_option("--landmarks", options.landmarks,
                         "The file of its landmarks. Default: they are found in pictures "
                         "of the mesh and written beside the rig as RIG_landmarks.json, as by "
-                        "`risorius landmarks`; where one that a rig needs is not sure, nothing "
-                        "is fitted");
+                        "`risorius landmarks`. If a required landmark is not sure, the command "
+                        "stops with an error");
     command->add_option("-o,--out", options.out, "The rig to write");
     command->add_option(
         "--voice", arguments->voice,

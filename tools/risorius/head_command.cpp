@@ -103,7 +103,7 @@ void add_people(CLI::App& command, HeadArguments& arguments) {
                      "Write only identity.json, which takes a few seconds");
     CLI::Option* cast = command.add_option(
         "--cast", arguments.cast.count,
-        "Choose this many persons that differ, 2 to 200, with --seed. Writes their "
+        "Choose this many people who differ from each other, 2 to 200, with --seed. Writes their "
         "identities, p01.json and so on, and the table cast.tsv, but no heads");
     cast->check(CLI::Range(2, 200));
     for (const char* source : {"--identity", "--morph", "--average", "--exaggerate"})
@@ -148,15 +148,15 @@ void add_head(CLI::App& app) {
                         "Redness beside --melanin, in standard deviations from the mean of people "
                         "of this tone, -3 to 3. Default: 0");
     command->add_option("--garment", choice.garment,
-                        "What the shoulders wear:" + listed(render::garment_names()));
+                        "Clothing on the shoulders:" + listed(render::garment_names()));
     command
         ->add_option("--garment-tone", choice.garment_tone,
                      "Its colour: red, green and blue, each from 0 to 1, as in 0.2,0.3,0.4")
         ->delimiter(',')
         ->expected(3);
     command->add_option("--skin-gloss", choice.skin_gloss,
-                        "What the skin mirrors, 0 to 2: powdered to oily. Default: 1, or that of "
-                        "the identity");
+                        "Gloss of the skin, from 0 (powdered) to 2 (oily). Default: 1, or that "
+                        "of the identity");
     command->add_option("--iris", choice.iris, "Colour of the eyes; the names are below");
     command->add_option("--hair", choice.hair, "Colour of brows and hair; the names are below");
     command->add_option("--hair-style", choice.hair_style,

@@ -76,9 +76,10 @@ void add_import(CLI::App& app) {
                      "VMC packets, or BVH (the head alone)")
         ->required();
     command->add_option("-o,--out", options.out, "The script to write")->required();
-    command->add_option("--as", options.read.as,
-                        "Format of the file, if its content does not tell: livelink, mediapipe, "
-                        "openface, pyfeat, arkit, gltf, vmc or bvh");
+    command->add_option(
+        "--as", options.read.as,
+        "Format of the file, if the program cannot recognise it: livelink, mediapipe, "
+        "openface, pyfeat, arkit, gltf, vmc or bvh");
     command->add_option("--rig", options.rig,
                         "The rig that the script names; without it, the adult rig");
     command->add_option("--fps", options.read.fps,

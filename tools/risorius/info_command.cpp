@@ -17,6 +17,21 @@ struct InfoArguments {
     std::filesystem::path file;
 };
 
+/// In lines that end near column 100.
+void print_names(const char* title, const Json& names) {
+    std::printf("\n%s\n", title);
+    std::string line;
+    for (const Json& entry : names) {
+        const auto name = entry.get<std::string>();
+        if (line.size() + name.size() > 98) {
+            std::printf(" %s\n", line.c_str());
+            line.clear();
+        }
+        line += " " + name;
+    }
+    std::printf(" %s\n", line.c_str());
+}
+
 void print_rig(const Json& info) {
     const auto text = [](const Json& value) { return value.get<std::string>(); };
     std::printf("%s: %s, %d vertices, %d faces, %g m per unit, %.3f of the average adult\n",
@@ -53,9 +68,9 @@ void print_rig(const Json& info) {
     for (const Json& unit : info["action_units"])
         std::printf("  %-12s %-5s  %s\n", text(unit["id"]).c_str(),
                     unit["sided"].get<bool>() ? ".l .r" : "", text(unit["name"]).c_str());
-    std::printf("\nExpressions\n ");
-    for (const Json& expression : info["expressions"]) std::printf(" %s", text(expression).c_str());
-    std::printf("\n\nOther channels\n");
+    print_names("ARKit shapes", info["arkit"]);
+    print_names("Expressions", info["expressions"]);
+    std::printf("\nOther channels\n");
     for (const Json& channel : info["kinematic"])
         std::printf("  %-20s %g to %g\n", text(channel["name"]).c_str(),
                     channel["min"].get<double>(), channel["max"].get<double>());

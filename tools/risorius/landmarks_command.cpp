@@ -98,7 +98,7 @@ void add_landmarks(CLI::App& app) {
     add_common(*command, arguments->common);
     command->footer(
         "The head may lie or be turned in any way. tools/web/fetch_weights.sh fetches the network "
-        "that looks at the pictures.\n\nExample:\n  risorius landmarks head.obj -o landmarks.json "
+        "that finds the landmarks.\n\nExample:\n  risorius landmarks head.obj -o landmarks.json "
         "--report look");
     command->callback([arguments] { run(*arguments); });
 }

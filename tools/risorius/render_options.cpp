@@ -39,7 +39,7 @@ void add_coding(CLI::App& command, animate::RenderRequest& options) {
     command
         .add_option("--keyframe-interval", video.keyframe_interval,
                     "Frames from one key frame to the next; 1: every frame is a key frame. "
-                    "Default: a quarter of a second")
+                    "Default: one key frame every quarter of a second")
         ->type_name("INT")
         ->group(kCoding);
     command
@@ -62,7 +62,7 @@ void add_coding(CLI::App& command, animate::RenderRequest& options) {
         ->group(kCoding);
     command
         .add_flag("--no-sound{false}", options.sound,
-                  "Leave the sound of what the script says out of the video")
+                  "Leave the speech sound of the script out of the video")
         ->group(kCoding);
 }
 
@@ -73,9 +73,10 @@ void add_view(CLI::App& command, animate::RenderRequest& options, std::string& s
     command.add_option("--camera", options.camera,
                        "View instead of the script's: front, three_quarter, three_quarter_right, "
                        "profile, profile_right, top; close-ups eye, nose, mouth, ear");
-    command.add_option("--hair", options.hair,
-                       "Hair on the scalp instead of the script's: own, that of the rig; none, for "
-                       "studies that show the face alone");
+    command.add_option(
+        "--hair", options.hair,
+        "Hair on the scalp instead of the script's. own: the hair of the rig; none: no "
+        "hair, for studies that show only the face");
     command.add_option("--quality", options.quality,
                        "Quality of the simulation: draft, preview, video or fine. Default: video");
     command

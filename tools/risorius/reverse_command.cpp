@@ -54,7 +54,7 @@ void run_reverse(ReverseArguments& arguments) {
 
 void add_reverse(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
-        "reverse", "From answers to random facial movements to the expression they stand for");
+        "reverse", "Compute expressions from the answers to random facial movements");
     auto arguments = std::make_shared<ReverseArguments>();
     stimuli::ReverseOptions& options = arguments->options;
     command
@@ -84,15 +84,17 @@ void add_reverse(CLI::App& app) {
                         "Rig of the scripts that are written. Default: the adult");
     command
         ->add_option("--permutations", options.classification.permutations,
-                     "Permutations that say what is chance")
+                     "Number of permutations for the chance level")
         ->check(CLI::Range(100, 100000))
         ->capture_default_str();
     command
         ->add_option("--bootstraps", options.classification.bootstraps,
-                     "Samples for the intervals of 95 %")
+                     "Number of bootstrap samples for the 95 % intervals")
         ->check(CLI::Range(100, 100000))
         ->capture_default_str();
-    command->add_option("--seed", options.classification.seed, "Seed of both")
+    command
+        ->add_option("--seed", options.classification.seed,
+                     "Seed of the permutations and the bootstrap samples")
         ->capture_default_str();
     add_common(*command, arguments->common);
     command->footer(

@@ -76,6 +76,8 @@ Json rig_info(const std::filesystem::path& rig_file) {
     out["expressions"] = Json::array();
     for (const track::Expression& expression : files.rig.expressions.list)
         out["expressions"].push_back(expression.name);
+    out["arkit"] = Json::array();
+    for (const track::ArkitShape& shape : files.rig.facs.arkit) out["arkit"].push_back(shape.name);
     out["kinematic"] = Json::array();
     for (const track::KinematicChannel& channel : track::kinematic_channels())
         out["kinematic"].push_back(json_object(

@@ -62,6 +62,11 @@ void add_sheet(CLI::App& app) {
         ->delimiter(',')
         ->allow_extra_args(false);
     command
+        ->add_option("--captions", options.captions,
+                     "Headings of the columns, separated by commas, instead of times and views")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command
         ->add_option(
             "--beside", options.beside,
             "PNG pictures to compare with, separated by commas; each gets a row of its own")

@@ -258,7 +258,7 @@ void add_speak(CLI::App& app) {
         ->check(CLI::Range(0.0, 2.0));
     command
         ->add_option("--passes", arguments->passes,
-                     "How often closures of the lips that leak are mended, 0 to 3")
+                     "How many times to correct lip closures that stay open, 0 to 3")
         ->capture_default_str()
         ->check(CLI::Range(0, 3));
     add_view(*command, arguments->render, arguments->size);

@@ -97,14 +97,14 @@ void add_studio(CLI::App& app) {
     command->add_option("FILE", arguments->file, "A script or a rig; without it, the adult");
     command
         ->add_option("--port", arguments->port,
-                     "The port to listen at; 0 is 8417, or any that is free")
+                     "The port to listen at. 0: 8417, or a free port if 8417 is in use")
         ->check(CLI::Range(0, 65535))
         ->capture_default_str();
     command->add_flag("--no-browser", arguments->no_browser,
                       "Only print the address, and open no browser");
     command
         ->add_option("--quality", arguments->quality,
-                     "How the face is solved: draft, preview, video or fine")
+                     "Quality of the simulation: draft, preview, video or fine")
         ->capture_default_str();
     add_common(*command, arguments->common);
     command->footer(

@@ -94,8 +94,8 @@ void add_study(CLI::App& app) {
     auto arguments = std::make_shared<StudyArguments>();
     command
         ->add_option("STUDY", arguments->options.study,
-                     "A study: which numbers of a rig vary, and in which poses the landmarks are "
-                     "read (JSON, see docs/formats/study.md)")
+                     "A study: which numbers of a rig are varied, and in which poses the landmarks "
+                     "are measured (JSON, see docs/formats/study.md)")
         ->required();
     command->add_option("-o,--out", arguments->options.out,
                         "The folder to write: new, empty, or with earlier results, which are "

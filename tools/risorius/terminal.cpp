@@ -85,8 +85,8 @@ void add_common(CLI::App& command, Common& common) {
     command.add_flag("--json", common.json, "Print the report as JSON on standard output");
     command.add_flag_callback(
         "--no-cache", [] { use_result_cache(false); },
-        "Compute everything anew; neither use nor keep results of computations (see RISORIUS_CACHE "
-        "in the manual)");
+        "Compute everything again: do not use or store cached results (see RISORIUS_CACHE in the "
+        "manual)");
 }
 
 void add_threads(CLI::App& command, int& threads, const std::string& what) {

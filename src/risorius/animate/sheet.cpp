@@ -27,9 +27,14 @@ void check_sheet(const SheetOptions& options) {
                     "\"" + options.out.extension().string() + "\"");
     if (options.times_s.empty())
         throw Error(option_name("times_s"), "at least one time in seconds", "none");
-    const std::size_t pictures = options.scripts.size() * options.times_s.size() *
-                                 std::max<std::size_t>(1, options.cameras.size()) *
-                                 std::max<std::size_t>(1, options.rigs.size());
+    const std::size_t columns =
+        options.times_s.size() * std::max<std::size_t>(1, options.cameras.size());
+    if (!options.captions.empty() && options.captions.size() != columns)
+        throw Error(option_name("captions"),
+                    "a caption for each of " + std::to_string(columns) + " columns",
+                    std::to_string(options.captions.size()));
+    const std::size_t pictures =
+        options.scripts.size() * columns * std::max<std::size_t>(1, options.rigs.size());
     if (pictures > kMaxPictures)
         throw Error(option_name("times_s"),
                     "at most " + std::to_string(kMaxPictures) + " pictures on a sheet",
@@ -105,6 +110,7 @@ std::vector<RenderJob> plan_jobs(const SheetOptions& options,
 
 std::vector<std::string> column_names(const SheetOptions& options,
                                       const std::vector<std::string>& cameras) {
+    if (!options.captions.empty()) return options.captions;
     std::vector<std::string> names;
     for (const std::string& camera : cameras)
         for (const double time_s : options.times_s)

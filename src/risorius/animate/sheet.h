@@ -20,6 +20,8 @@ struct SheetOptions {
     std::vector<double> times_s;                 ///< at least one, in the order of the columns
     /// Names of cameras; each time is shown from each of them. Empty: the camera of `view`
     std::vector<std::string> cameras;
+    /// Headings of the columns, one for each. Empty: the times, and the names of the cameras
+    std::vector<std::string> captions;
     /// .png files to compare with, in rows of their own
     std::vector<std::filesystem::path> beside;
     std::filesystem::path out;  ///< .png

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "risorius/render/detail/blend.h"
@@ -159,7 +160,50 @@ void add_digits_and_marks(Alphabet& of) {
     of['\''] = {0.0, {{{0, -1}, {0, -0.74}}}};
 }
 
-const Letter& letter(char c) {
+/// Letters with a sign above them, the letters alone, and the signs: d diaeresis, a acute, g grave, c circumflex, t tilde, r ring,
+/// v caron.
+constexpr std::u32string_view kSigned =
+    U"ÀÁÂÃÄÅÈÉÊËÌÍÎÏÑÒÓÔÕÖÙÚÛÜÝàáâãäåèéêëìíîïñòóôõöùúûüýÿČčĎďĚěŇňŘřŠšŤťŮůŽž";
+constexpr std::string_view kAlone =
+    "AAAAAAEEEEIIIINOOOOOUUUUYaaaaaaeeeeiiiinooooouuuuyyCcDdEeNnRrSsTtUuZz";
+constexpr std::string_view kSigns =
+    "gactdrgacdgacdtgactdgacdagactdrgacdgacdtgactdgacdadvvvvvvvvvvvvvvrrvv";
+static_assert(kSigned.size() == kAlone.size() && kSigned.size() == kSigns.size());
+
+std::vector<Line> sign_lines(char sign, double x, double y) {
+    switch (sign) {
+        case 'd':
+            return {{{x - 0.13, y - 0.01}, {x - 0.13, y + 0.01}},
+                    {{x + 0.13, y - 0.01}, {x + 0.13, y + 0.01}}};
+        case 'a':
+            return {{{x - 0.06, y + 0.07}, {x + 0.10, y - 0.09}}};
+        case 'g':
+            return {{{x + 0.06, y + 0.07}, {x - 0.10, y - 0.09}}};
+        case 'c':
+            return {{{x - 0.15, y + 0.07}, {x, y - 0.09}, {x + 0.15, y + 0.07}}};
+        case 'v':
+            return {{{x - 0.15, y - 0.09}, {x, y + 0.07}, {x + 0.15, y - 0.09}}};
+        case 'r':
+            return {arc(x, y - 0.02, 0.10, 0.10, 0, 360)};
+        default:
+            return {joined(arc(x - 0.09, y + 0.02, 0.09, 0.07, 180, 360),
+                           arc(x + 0.09, y + 0.02, 0.09, 0.07, 180, 0))};
+    }
+}
+
+Letter with_sign(const Alphabet& of, char alone, char sign) {
+    Letter out = of[static_cast<std::size_t>(alone)];
+    if (alone == 'i') {  // the sign stands in place of the dot
+        out.lines.resize(1);
+        out.width = 0.2;
+        for (Vec2& p : out.lines[0]) p.x() += 0.1;
+    }
+    const double y = alone >= 'a' && alone != 'd' && alone != 't' ? -0.90 : -1.22;
+    for (Line& line : sign_lines(sign, out.width / 2, y)) out.lines.push_back(std::move(line));
+    return out;
+}
+
+const Letter& letter(char32_t c) {
     static const Alphabet kAlphabet = [] {
         Alphabet of;
         of.fill({0.50, {{{0, 0}, {0, -0.8}, {0.5, -0.8}, {0.5, 0}, {0, 0}}}});
@@ -168,12 +212,31 @@ const Letter& letter(char c) {
         add_digits_and_marks(of);
         return of;
     }();
-    const auto code = static_cast<unsigned char>(c);
-    return kAlphabet[code < 128 ? code : 0];
+    static const std::vector<Letter> kWithSigns = [] {
+        std::vector<Letter> of;
+        for (std::size_t i = 0; i < kSigned.size(); ++i)
+            of.push_back(with_sign(kAlphabet, kAlone[i], kSigns[i]));
+        return of;
+    }();
+    if (c < 128) return kAlphabet[c];
+    const std::size_t at = kSigned.find(c);
+    return at == std::u32string_view::npos ? kAlphabet[0] : kWithSigns[at];
 }
 
-/// Continuation bytes of UTF-8 do not start a letter.
-bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+/// The characters of UTF-8. A byte that starts none is left out.
+std::u32string characters_of(std::string_view text) {
+    std::u32string out;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x80)
+            out += byte;
+        else if (byte >= 0xC0)
+            out += byte & (byte < 0xE0 ? 0x1F : byte < 0xF0 ? 0x0F : 0x07);
+        else if (!out.empty())
+            out.back() = out.back() << 6 | (byte & 0x3F);
+    }
+    return out;
+}
 
 double distance_to(const Line& line, const Vec2& p) {
     double best = 1e9;
@@ -191,22 +254,20 @@ double distance_to(const Line& line, const Vec2& p) {
 
 double text_width(std::string_view text) {
     double width = text.empty() ? 0 : -kLetterGap;
-    for (const char c : text)
-        if (!continues(c)) width += letter(c).width + kLetterGap;
+    for (const char32_t c : characters_of(text)) width += letter(c).width + kLetterGap;
     return width;
 }
 
 void write_text(std::string_view text, const Vec2& at, const TextStyle& style, Image& image) {
-    constexpr double kBelow = 0.3;  ///< descenders
+    constexpr double kAbove = 1.4, kBelow = 0.3;  ///< signs above capitals, descenders
     const double half = std::max(0.55, 0.5 * kPenWidth * style.height_px);
     const double rim = style.rim > 0 ? 0.10 * style.height_px + 0.6 : 0.0;
     const int reach = static_cast<int>(std::ceil(half + rim)) + 1;
     Vec2 pen = at;
-    for (const char c : text) {
-        if (continues(c)) continue;
+    for (const char32_t c : characters_of(text)) {
         const Letter& shape = letter(c);
         const int left = static_cast<int>(pen.x()) - reach,
-                  top = static_cast<int>(pen.y() - 1.1 * style.height_px) - reach,
+                  top = static_cast<int>(pen.y() - kAbove * style.height_px) - reach,
                   right = static_cast<int>(pen.x() + shape.width * style.height_px) + reach,
                   bottom = static_cast<int>(pen.y() + kBelow * style.height_px) + reach;
         for (int y = std::max(0, top); y <= std::min(bottom, image.height_px - 1); ++y)

@@ -2,7 +2,8 @@
 /// \file
 /// Short texts in pictures in an antialiased stroke font, which draws the same pixels on every machine.
 ///
-/// The font has the ASCII letters, digits and the marks . , : ; - + / % ( ) _ = '. Any other character is drawn as a box.
+/// The font has the ASCII letters, digits and the marks . , : ; - + / % ( ) _ = ', and the letters of Western Europe and of Czech
+/// that have a sign above them. The text is UTF-8. Any other character is drawn as a box.
 #pragma once
 
 #include <string_view>

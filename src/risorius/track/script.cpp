@@ -271,7 +271,7 @@ class Reader {
                 if (const std::string whole = name.substr(0, name.size() - side.size());
                     channels_.find(whole) || facs_.find(whole))
                     near = whole + side.substr(0, 2);
-        json.fail("a muscle, action unit or kinematic channel of the rig" +
+        json.fail("a muscle, action unit, ARKit shape or kinematic channel of the rig" +
                       (near.empty() ? " (`risorius info` lists them)"
                                     : " (did you mean " + risorius::in_quotes(near) + "?)"),
                   in_quotes(name));

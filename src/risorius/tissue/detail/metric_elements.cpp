@@ -38,7 +38,7 @@ void add_to_nodes(const Element& element, const Tangents& r, const Mat2& stress,
             out.row(element.node[k]) += element.d[i][k] * p.col(i).transpose();
 }
 
-Mat2 compressed_no_more(const Mat2& s) {
+Mat2 tension_only(const Mat2& s) {
     Eigen::SelfAdjointEigenSolver<Mat2> eigen;
     eigen.computeDirect(s);  // closed form
     return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
@@ -103,7 +103,7 @@ void MetricElements::add_hessian(const solve::ImplicitStep& step, const Points& 
             stress += rate_hz * element.phi.cwiseProduct(g - metric(element, step.start));
             stiffness += rate_hz * element.phi;
         }
-        if (curvature == solve::Curvature::kPositive) stress = compressed_no_more(stress);
+        if (curvature == solve::Curvature::kPositive) stress = tension_only(stress);
         // Second derivative by r_1, r_2: stress (x) I + 1/2 sum k_ij g_ij g_ij^T, where g_ij is the gradient of G_ij.
         const Vec3 r1 = r.col(0), r2 = r.col(1);
         const double shear = stiffness(0, 1);
