@@ -160,7 +160,7 @@ std::string vtk_binary() {
 }
 
 /// Those arrays packed by zlib in parts of 64 bytes, header and parts each as base64; made by zlib of Python.
-const std::vector<std::string> kPacked{
+const std::vector<std::string> kPackedBlocks{
     "AwAAAEAAAAAQAAAAEgAAABQAAAAQAAAAeJxjYMAHPtjjlQbKAwAqXgJfeJxjYMAHPthjp39AaSUHAGhABSd4nGNgAAElBw"
     "YoDQAE"
     "KADF",
@@ -194,7 +194,7 @@ std::string vtu(Form form, std::string compressor = "") {
     const bool packed = form == Form::kPacked || form == Form::kAppendedPacked;
     const bool inside = form == Form::kBase64 || form == Form::kPacked;
     if (packed && compressor.empty()) compressor = " compressor=\"vtkZLibDataCompressor\"";
-    std::vector<std::string> blocks = packed ? kPacked : vtu_blocks();
+    std::vector<std::string> blocks = packed ? kPackedBlocks : vtu_blocks();
     for (std::size_t k = 0; k < 5; ++k) {
         if (!packed && form != Form::kAppendedRaw) blocks[k] = base64(blocks[k]);
         arrays[k] = std::string("<DataArray type=\"") + types[k] + "\" Name=\"" + names[k] + "\" ";
@@ -375,11 +375,12 @@ TEST_F(TetMeshes, SayWhatIsWrongAndWhere) {
               "a.vtu:2: expected a file without compression, or with vtkZLibDataCompressor, found "
               "vtkLZ4DataCompressor");
     text = vtu(Form::kPacked);
-    EXPECT_EQ(complaint("a.vtu", text.replace(text.find(kPacked[3]) + 30, 1, "X")),
-              "a.vtu:13: expected a block of zlib with 3 bytes, found another checksum");
+    EXPECT_EQ(
+        complaint("a.vtu", text.replace(text.find(kPackedBlocks[3]) + 30, 1, "X")),
+        "a.vtu:18: expected a block of zlib with 3 bytes, found more bytes than it should hold");
     text = meditb(2);
-    EXPECT_EQ(complaint("a.meshb", text.replace(12, 4, std::string(4, '\2'))),
-              "a.meshb: expected a next section");
+    EXPECT_EQ(complaint("a.meshb", text.replace(12, 4, std::string("\2\0\0\0", 4))),
+              "a.meshb: expected a next section behind the one before, found place 2");
     EXPECT_EQ(complaint("a.stl", ""),
               "a.stl: expected an ending of .msh, .vtk, .vtu, .mesh, .meshb, .node or .ele, found "
               "\".stl\"");

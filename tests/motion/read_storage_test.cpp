@@ -59,7 +59,7 @@ TEST_F(StorageTest, NamesOfEveryKindAreChannels) {
 TEST_F(StorageTest, BecomesAScriptOfActivations) {
     std::ofstream(folder_ / "a.mot") << kHeader
                                      << "time zygomaticus_major_l zygomaticus_major_r knee_angle_r "
-                                        "procerus frontalis_1_l\n0 0 0.2 9 0 0\n1 0.5 0.4 9 0 0\n";
+                                        "procerus risorius_1_l\n0 0 0.2 9 0 0\n1 0.5 0.4 9 0 0\n";
     const ImportReport report = import_motion(
         {.file = folder_ / "a.mot",
          .out = folder_ / "script.json",

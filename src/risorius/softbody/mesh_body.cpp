@@ -100,10 +100,10 @@ io::TetMesh filled(const MeshBodyDescription& description) {
     if (why == geom::NotFilled::kInsideOut)
         throw Error(place + "surface", "a surface that faces outward", name);
     if (why == geom::NotFilled::kTooFine)
-        throw Error(
-            place + "spacing_m",
-            "at most " + format_number(geom::kMostFillingCubes) + " cubes around the surface",
-            format_number(description.spacing_m));
+        throw Error(place + "spacing_m",
+                    "at most " + std::to_string(static_cast<long>(geom::kMostFillingCubes)) +
+                        " cubes around the surface",
+                    format_number(description.spacing_m));
     if (why == geom::NotFilled::kTooCoarse)
         throw Error(place + "spacing_m", "tetrahedra with their middle inside the surface",
                     format_number(description.spacing_m));

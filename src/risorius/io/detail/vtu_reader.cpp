@@ -15,6 +15,8 @@ namespace risorius::io::detail {
 
 namespace {
 
+constexpr std::size_t kMostNodesOfACell = 64;
+
 using Attributes = std::map<std::string, std::string, std::less<>>;
 
 struct XmlName {
@@ -200,7 +202,8 @@ class VtuReader {
             }
         } else if (form == "binary") {
             const std::size_t end = std::min(text_.find('<', at_), text_.size());
-            out = of_block(decoded_base64(text_.substr(at_, end - at_), std::string::npos), of);
+            out = of_block(decoded_base64(text_.substr(at_, end - at_), std::string::npos), of,
+                           expected);
         } else if (form == "appended") {
             const std::string offset_text = attribute("offset");
             MeshScanner in(offset_text, name_);
@@ -210,11 +213,12 @@ class VtuReader {
                 fail("an offset within the appended data", std::to_string(offset));
             const std::string_view from = text_.substr(appended_ + offset);
             if (raw_) {
-                out = of_block(from, of);
+                out = of_block(from, of, expected);
             } else {
                 std::string head = decoded_base64(from, header_bytes());
                 if (compressed_) head = decoded_base64(from, head_bytes(head));
-                out = of_block(decoded_base64(from, head_bytes(head) + block_bytes(head)), of);
+                out = of_block(decoded_base64(from, head_bytes(head) + block_bytes(head)), of,
+                               expected);
             }
         } else {
             fail("the format ascii, binary or appended", "\"" + form.substr(0, 24) + "\"");
@@ -256,12 +260,15 @@ class VtuReader {
             fail("a block within the file", "one of " + std::to_string(length) + " bytes");
         return length;
     }
-    std::vector<double> of_block(std::string_view block, Scalar of) const {
+    std::vector<double> of_block(std::string_view block, Scalar of,
+                                 std::optional<std::size_t> expected) const {
         const std::size_t head = head_bytes(block), length = block_bytes(block);
         if (block.size() < head || length > block.size() - head)
             fail("a block of " + std::to_string(head + length) + " bytes",
                  std::to_string(block.size()));
         if (!compressed_) return numbers_of(block.substr(head, length), of, swapped_);
+        // A file packs a thousandth of what it can unpack to: no more than there is room for in the mesh
+        const std::size_t most = bytes_of(of) * expected.value_or(kMostNodesOfACell * cell_count_);
         std::string unpacked;
         const std::size_t parts = header_number(block, 0), last = header_number(block, 2);
         std::size_t at = head;
@@ -270,6 +277,9 @@ class VtuReader {
             const std::size_t bytes =
                 part + 1 == parts && last > 0 ? last : header_number(block, 1);
             const std::size_t before = unpacked.size();
+            if (bytes > most - before)
+                fail("at most " + std::to_string(most) + " bytes in a block",
+                     std::to_string(before + bytes));
             const std::string wrong = inflate(block.substr(at, packed), bytes, unpacked);
             if (!wrong.empty() || unpacked.size() - before != bytes)
                 fail("a block of zlib with " + std::to_string(bytes) + " bytes",
