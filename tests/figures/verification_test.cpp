@@ -89,6 +89,18 @@ TEST(Verification, TheThickPlateHasThePublishedStress) {
     EXPECT_GT(measured(figure, "order/0.3/4"), 1);
 }
 
+// rho g L / (2 E) = 0.24525 % of the volume, as the README of the sample derives.
+TEST(MeshInEquilibrium, AColumnHangsAsTheClosedForm) {
+    Json json = sample("mesh");
+    forget_numbers(json);
+    json["cases"] = Json::array({json["cases"].back()});
+    json["body"]["mesh"]["file"] = (samples_folder() / "mesh" / "column.mesh").string();
+    EXPECT_NEAR(measured(run(json), "volume_change_percent/light"), 0.24525, 0.002);
+    json["length_along"] = "a3";
+    EXPECT_EQ(message_of([&] { check_experiment(JsonCursor::from_json(json, "mine.json")); }),
+              "mine.json:/length_along: expected no axis, since a mesh has none, found \"a3\"");
+}
+
 TEST(Verification, WrongPlansAreRefused) {
     const auto message = [](const char* pointer, const Json& value) {
         Json json = sample("cook");
