@@ -3,14 +3,18 @@
 
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "python/python_values.h"
 #include "risorius/core/error.h"
+#include "risorius/core/output_set.h"
 #include "risorius/softbody/body_description.h"
+#include "risorius/softbody/feb_text.h"
 #include "risorius/softbody/mesh_body.h"
 #include "risorius/softbody/soft_body.h"
 #include "risorius/solve/integrator.h"
@@ -117,6 +121,18 @@ void add_soft_body(py::module_& module) {
                 return self.body().system.energy(self.state().t_s, self.state().x);
             },
             "Potential energy, J.");
+    module.def(
+        "write_feb",
+        [](const py::dict& body, const std::filesystem::path& file) {
+            const JsonCursor json = JsonCursor::from_json(json_of(body), "body");
+            if (!softbody::is_mesh_body(json))
+                throw Error("body", "a body of the kind \"mesh\"", "one on a grid");
+            write_file(file, softbody::feb_text(softbody::read_mesh_body(json)));
+        },
+        py::arg("body"), py::arg("file"),
+        "Writes a body of the kind \"mesh\" as a model of FEBio 4 (.feb): its mesh, materials, "
+        "supports and\n"
+        "weight.");
 }
 
 }  // namespace risorius::python

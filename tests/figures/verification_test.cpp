@@ -64,6 +64,43 @@ TEST(Verification, ABarOfBendingCellsDeflectsAsTimoshenkoSays) {
         EXPECT_NEAR(measured(figure, std::string("deflection_ratio/") + name), 1, 0.005) << name;
 }
 
+// The clamped solid of cells with 27 nodes (tests/second/clamped_bar.py), and that program's own bending cells.
+TEST(Verification, AClampedBarOfBendingCellsDeflectsAsTheSolid) {
+    const FigureResult figure = solved("clamped", {2}, {0, 0.3, 0.49, 0.499});
+    for (const char* name : {"0/2", "0.3/2", "0.49/2", "0.499/2"})
+        EXPECT_NEAR(measured(figure, std::string("deflection_ratio/") + name), 1, 0.01) << name;
+    Json cubes = sample("clamped");
+    forget_numbers(cubes);
+    cubes.erase("lengthwise");
+    cubes.erase("solutions");
+    cubes["cells"] = {2};
+    const FigureResult over_timoshenko = run(cubes);
+    const std::pair<const char*, double> python[] = {
+        {"0/2", 0.9984}, {"0.3/2", 0.9871}, {"0.49/2", 0.9580}, {"0.499/2", 0.9556}};
+    for (const auto& [name, ratio] : python)
+        EXPECT_NEAR(measured(over_timoshenko, std::string("deflection_ratio/") + name), ratio, 2e-4)
+            << name;
+}
+
+// NAFEMS 1990, LE10: 5.38; with four cells through the thickness within 3 %.
+TEST(Verification, TheThickPlateHasThePublishedStress) {
+    const FigureResult figure = solved("thick-plate", {2, 4}, {0.3});
+    EXPECT_NEAR(measured(figure, "stress/0.3/4"), 5.38, 0.16);
+    EXPECT_GT(measured(figure, "order/0.3/4"), 1);
+}
+
+// rho g L / (2 E) = 0.24525 % of the volume, as the README of the sample derives.
+TEST(MeshInEquilibrium, AColumnHangsAsTheClosedForm) {
+    Json json = sample("mesh");
+    forget_numbers(json);
+    json["cases"] = Json::array({json["cases"].back()});
+    json["body"]["mesh"]["file"] = (samples_folder() / "mesh" / "column.mesh").string();
+    EXPECT_NEAR(measured(run(json), "volume_change_percent/light"), 0.24525, 0.002);
+    json["length_along"] = "a3";
+    EXPECT_EQ(message_of([&] { check_experiment(JsonCursor::from_json(json, "mine.json")); }),
+              "mine.json:/length_along: expected no axis, since a mesh has none, found \"a3\"");
+}
+
 TEST(Verification, WrongPlansAreRefused) {
     const auto message = [](const char* pointer, const Json& value) {
         Json json = sample("cook");
@@ -75,6 +112,10 @@ TEST(Verification, WrongPlansAreRefused) {
     EXPECT_EQ(message("/element", "bending-cells"),
               "mine.json:/element: expected cells: those of this problem are no boxes, found "
               "\"bending-cells\"");
+    EXPECT_EQ(
+        message("/lengthwise", 2),
+        "mine.json:/lengthwise: expected no such key but for the problem \"cantilever\", found "
+        "2");
     EXPECT_EQ(message("/cells", {4, 4}),
               "mine.json:/cells/1: expected more cells than before, found 4");
     EXPECT_EQ(message("/cells", {5}),

@@ -152,6 +152,7 @@ void read_tets(const std::uint8_t* data, std::size_t size, Digest& digest) {
     const char* const name = text.starts_with('$')   ? "input.msh"
                              : text.starts_with('#') ? "input.vtk"
                              : text.starts_with('<') ? "input.vtu"
+                             : text.find('\0') < 4   ? "input.meshb"
                                                      : "input.mesh";
     const io::TetMesh mesh = io::read_tet_mesh(file_of(name, data, size));
     digest.add(mesh.positions);

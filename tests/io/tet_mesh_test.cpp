@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "message_of.h"
+#include "risorius/io/detail/inflate.h"
 #include "risorius/io/detail/tet_mesh_builder.h"
 #include "risorius/io/vtk_file.h"
 #include "temporary_folder.h"
@@ -158,6 +159,15 @@ std::string vtk_binary() {
     return out.text("\n").str();
 }
 
+/// Those arrays packed by zlib in parts of 64 bytes, header and parts each as base64; made by zlib of Python.
+const std::vector<std::string> kPackedBlocks{
+    "AwAAAEAAAAAQAAAAEgAAABQAAAAQAAAAeJxjYMAHPtjjlQbKAwAqXgJfeJxjYMAHPthjp39AaSUHAGhABSd4nGNgAAElBw"
+    "YoDQAE"
+    "KADF",
+    "AgAAAEAAAAAYAAAAFgAAABAAAAA=eJxjYIAARijNxIAK0MWZ0cQBAWAAC3icY2KAAGYozQKlAQCYAAo=",
+    "AQAAAEAAAAAYAAAAEAAAAA==eJxjZoAAdijNDaUBASgAFg==", "AQAAAEAAAAADAAAACwAAAA==eJxj5eICAAAwABo=",
+    "AQAAAEAAAAAMAAAAEQAAAA==eJxjYGBgYAdiTiAGAABoABE="};
+
 /// Arrays of the two tetrahedra as one block each: its length, then its numbers.
 std::vector<std::string> vtu_blocks() {
     using I = std::int64_t;
@@ -175,21 +185,25 @@ std::vector<std::string> vtu_blocks() {
     return out;
 }
 
-enum class Form { kBase64, kAppendedRaw, kAppendedBase64 };
+enum class Form { kBase64, kAppendedRaw, kAppendedBase64, kPacked, kAppendedPacked };
 
-std::string vtu(Form form, const std::string& compressor = "") {
+std::string vtu(Form form, std::string compressor = "") {
     const char* const names[5] = {"Points", "connectivity", "offsets", "types", "material"};
     const char* const types[5] = {"Float64", "Int64", "Int64", "UInt8", "Int32"};
     std::string arrays[5], appended;
-    const std::vector<std::string> blocks = vtu_blocks();
+    const bool packed = form == Form::kPacked || form == Form::kAppendedPacked;
+    const bool inside = form == Form::kBase64 || form == Form::kPacked;
+    if (packed && compressor.empty()) compressor = " compressor=\"vtkZLibDataCompressor\"";
+    std::vector<std::string> blocks = packed ? kPackedBlocks : vtu_blocks();
     for (std::size_t k = 0; k < 5; ++k) {
+        if (!packed && form != Form::kAppendedRaw) blocks[k] = base64(blocks[k]);
         arrays[k] = std::string("<DataArray type=\"") + types[k] + "\" Name=\"" + names[k] + "\" ";
-        if (form == Form::kBase64) {
-            arrays[k] += "format=\"binary\">\n  " + base64(blocks[k]) + "\n</DataArray>\n";
+        if (inside) {
+            arrays[k] += "format=\"binary\">\n  " + blocks[k] + "\n</DataArray>\n";
             continue;
         }
         arrays[k] += "format=\"appended\" offset=\"" + std::to_string(appended.size()) + "\"/>\n";
-        appended += form == Form::kAppendedRaw ? blocks[k] : base64(blocks[k]);
+        appended += blocks[k];
     }
     return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
            "byte_order=\"LittleEndian\" header_type=\"UInt32\"" +
@@ -199,10 +213,10 @@ std::string vtu(Form form, const std::string& compressor = "") {
            arrays[0] + "</Points>\n<Cells>\n" + arrays[1] + arrays[2] + arrays[3] +
            "</Cells>\n<CellData Scalars='material'>\n" + arrays[4] +
            "</CellData>\n</Piece>\n</UnstructuredGrid>\n" +
-           (form == Form::kBase64 ? ""
-                                  : "<AppendedData encoding=\"" +
-                                        std::string(form == Form::kAppendedRaw ? "raw" : "base64") +
-                                        "\">\n_" + appended + "\n</AppendedData>\n") +
+           (inside ? ""
+                   : "<AppendedData encoding=\"" +
+                         std::string(form == Form::kAppendedRaw ? "raw" : "base64") + "\">\n_" +
+                         appended + "\n</AppendedData>\n") +
            "</VTKFile>\n";
 }
 
@@ -210,6 +224,39 @@ const std::string kMedit =
     "MeshVersionFormatted 2\nDimension 3 # of space\nVertices\n6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 "
     "0\n"
     "1 1 1.5 0\n9 9 9 0\nTriangles\n1\n1 2 3 3\nTetrahedra\n2\n1 2 3 4 7\n2 3 4 5 9\nEnd\n";
+
+/// A binary file of Medit: versions differ in the sizes of reals, integers and places.
+std::string meditb(int version, bool big = false) {
+    Bytes out(big);
+    const auto real = [&](double value) {
+        version == 1 ? out.put<float>(value) : out.put<double>(value);
+    };
+    const auto integer = [&](int value) {
+        version == 4 ? out.put<std::int64_t>(value) : out.put<std::int32_t>(value);
+    };
+    const auto section = [&](int number, std::size_t length) {
+        out.put<std::int32_t>(number);
+        const std::size_t next = out.str().size() + (version >= 3 ? 8 : 4) + length;
+        version >= 3 ? out.put<std::int64_t>(next) : out.put<std::int32_t>(next);
+    };
+    const std::size_t i = version == 4 ? 8 : 4, r = version == 1 ? 4 : 8;
+    out.put<std::int32_t>(1, version);
+    section(3, 4);
+    out.put<std::int32_t>(3);
+    section(4, i + 6 * (3 * r + i));
+    integer(6);
+    for (const auto& node : kNodes) {
+        for (const double value : node) real(value);
+        integer(0);
+    }
+    section(6, 5 * i);  // a triangle
+    for (const int value : {1, 1, 2, 3, 3}) integer(value);
+    section(8, 11 * i);
+    for (const int value : {2, 1, 2, 3, 4, 7, 2, 3, 4, 5, 9}) integer(value);
+    out.put<std::int32_t>(54);
+    version >= 3 ? out.put<std::int64_t>(0) : out.put<std::int32_t>(0);
+    return out.str();
+}
 
 TEST_F(TetMeshes, AreTheSameInEveryFormat) {
     const TetMesh msh = read("a.msh", msh2_text());
@@ -223,7 +270,11 @@ TEST_F(TetMeshes, AreTheSameInEveryFormat) {
     expect_the_two(read("a.vtu", vtu(Form::kBase64)));
     expect_the_two(read("b.vtu", vtu(Form::kAppendedRaw)));
     expect_the_two(read("c.vtu", vtu(Form::kAppendedBase64)));
+    expect_the_two(read("d.vtu", vtu(Form::kPacked)));
+    expect_the_two(read("e.vtu", vtu(Form::kAppendedPacked)));
     expect_the_two(read("a.mesh", kMedit));
+    for (const int version : {1, 2, 3, 4})
+        for (const bool big : {false, true}) expect_the_two(read("a.meshb", meditb(version, big)));
     // TetGen counts from 0 or 1, and turns its corners the other way.
     std::ofstream(folder_ / "t.node")
         << "# by hand\n6 3 1 1\n0 0 0 0 5 1\n1 1 0 0 5 1\n2 0 1 0 5 1\n"
@@ -260,6 +311,10 @@ std::vector<Sample> samples() {
             {detail::read_vtu, vtu(Form::kBase64)},
             {detail::read_vtu, vtu(Form::kAppendedRaw)},
             {detail::read_vtu, vtu(Form::kAppendedBase64)},
+            {detail::read_vtu, vtu(Form::kPacked)},
+            {detail::read_vtu, vtu(Form::kAppendedPacked)},
+            {detail::read_meditb, meditb(2)},
+            {detail::read_meditb, meditb(4, true)},
             {detail::read_medit, kMedit}};
 }
 
@@ -316,14 +371,107 @@ TEST_F(TetMeshes, SayWhatIsWrongAndWhere) {
     text = msh2_text();
     EXPECT_EQ(complaint("a.msh", text.replace(text.find("2.2"), 3, "4.0")),
               "a.msh:2: expected version 2 or 4.1 of the format, found 4.0");
-    EXPECT_EQ(complaint("a.vtu", vtu(Form::kBase64, " compressor=\"vtkZLibDataCompressor\"")),
-              "a.vtu:2: expected a file without compression, found vtkZLibDataCompressor");
+    EXPECT_EQ(complaint("a.vtu", vtu(Form::kBase64, " compressor=\"vtkLZ4DataCompressor\"")),
+              "a.vtu:2: expected a file without compression, or with vtkZLibDataCompressor, found "
+              "vtkLZ4DataCompressor");
+    text = vtu(Form::kPacked);
     EXPECT_EQ(
-        complaint("a.stl", ""),
-        "a.stl: expected an ending of .msh, .vtk, .vtu, .mesh, .node or .ele, found \".stl\"");
+        complaint("a.vtu", text.replace(text.find(kPackedBlocks[3]) + 30, 1, "X")),
+        "a.vtu:18: expected a block of zlib with 3 bytes, found more bytes than it should hold");
+    text = meditb(2);
+    EXPECT_EQ(complaint("a.meshb", text.replace(12, 4, std::string("\2\0\0\0", 4))),
+              "a.meshb: expected a next section behind the one before, found place 2");
+    EXPECT_EQ(complaint("a.stl", ""),
+              "a.stl: expected an ending of .msh, .vtk, .vtu, .mesh, .meshb, .node or .ele, found "
+              "\".stl\"");
     std::ofstream(folder_ / "lone.node") << "0 3 0 0\n";
     EXPECT_EQ(message_of([&] { read_tet_mesh(folder_ / "lone.node"); }),
               (folder_ / "lone.ele").string() + ": expected a mesh file, found no such file");
+}
+
+// Blocks of zlib that Python packed: with a code of their own, with the fixed one, and as they are.
+std::string from_hex(const std::string& text) {
+    std::string out;
+    for (std::size_t at = 0; at < text.size(); at += 2)
+        out += static_cast<char>(std::stoi(text.substr(at, 2), nullptr, 16));
+    return out;
+}
+
+/// What was packed.
+std::string unpacked_text() {
+    std::string out;
+    for (int i = 0; i < 700; ++i) out += static_cast<char>(i % 3 ? i * i * 7 % 251 : 32 + i % 26);
+    for (int i = 0; i < 600; ++i) out += static_cast<char>(i % 26 + 97);
+    return out;
+}
+
+/// zlib.compress(plain, 9)
+const std::string kOwnCode = from_hex(
+    "78daedc9cf2beb010000703249116a4894efefdfbf7f7fa5b071c081e547c4d47b6f7bdef6bc3db3677b1b4e0e2ed2"
+    "6aad6c"
+    "5c948b030ee668c9af52645a2916a55d38ac480e6eef7f78679feb07286b82a777b1f153f26c82d99be5e12aa90657"
+    "170e8c"
+    "a91bf07606395fc65b498aed64d7ef85950fb964557bdd372787a0b1007a69258e64ba25c3092fe2664c594be9b523"
+    "406504"
+    "5e6cc6e66de45b9e2954f0de1dc99d551fe68cbb0d70b40719f6e3d78dd4959ded7f16faeae58bb476f164f6c5a1fe"
+    "43f4ca"
+    "475c27e9e16e6e3428de61cac3a0ee2e05bc0a5c78c4deeac8f91366f19dafdc926a73ea5ad4d83c068530d2b28d1f"
+    "b9a8cb"
+    "043be6102697e4d776ad2464ae88d0ba076511a2d5499f3770b703e254b5b2d0abd794037017bc67c1ce3ac8f16266"
+    "ba8d2f"
+    "2b929adad4dd62e3b4039cb020b35d78553985f7b207d5c2cd803cd3a02d3b4d12813a3de8bd487c84e8d5766e7f49"
+    "1c7228"
+    "81846e7501f2369c09632fc7642ccaa472fcc8961479579b4f0c5b1d987f442a147ca794ca0eb27398b011947bba35"
+    "7fd26c"
+    "f441f643f4394ed43fd1e934f7542fc69f9543bbee6b04927eb8bb070b6e90d81c3398e54b7724a5427dcc1b7536f0"
+    "a41979"
+    "8fe05b23542ec54663c2f18b1cce68dbb2e9b2428900ea182296f6e9f6552ef4218af78aa7534748c0b90c37cc6003"
+    "3764f5"
+    "01d38bf3e55552d7ac6a99303a4ec1e25da4ad092f2aa3daa6d9e271a1e34cb6ec695db0595e03f52ea0d553c4c02d"
+    "dd70ce"
+    "395b4584553cebbab802844ae0f6576c6992748c31894bde75246db7a861c138de04a36b48ae16dfaaa4de17d99379"
+    "a1ee4d"
+    "7e2c688ad72c7543830f2876470447e9ee612e792dfaae94c37e3dde073c5dc0e90bacbe8f7cee67ec577ce3b5e41f"
+    "567b46"
+    "8d8d3b70ee01c9baf11d2f555160f36f826d5e6e5ed42295e6482d945a43639bc48b40675a38f948b45e2a8131fdcb"
+    "d76f2e"
+    "f7f7c91f1eefcfa95fbedfd3fe99c09fd960e86f38f2399ff3fff30f42c1ffa5");
+
+TEST(Inflate, UnpacksWhatZlibPacked) {
+    std::string out = "before";
+    EXPECT_EQ(detail::inflate(kOwnCode, 1300, out), "");
+    EXPECT_EQ(out, "before" + unpacked_text());
+    out.clear();
+    EXPECT_EQ(detail::inflate(from_hex("78da4b4c4a4e444500417c06e5"), 18, out),
+              "");  // the fixed code
+    EXPECT_EQ(out, "abcabcabcabcabcabc");
+    out.clear();
+    EXPECT_EQ(detail::inflate(from_hex("7801010800f7ff61732069742069730c7702ce"), 8, out), "");
+    EXPECT_EQ(out, "as it is");
+}
+
+TEST(Inflate, TellsWhatIsWrong) {
+    std::string out;
+    EXPECT_EQ(detail::inflate(kOwnCode, 1299, out), "more bytes than it should hold");
+    EXPECT_EQ(detail::inflate("no header", 99, out), "another header than that of zlib");
+    EXPECT_EQ(detail::inflate("", 99, out), "fewer bytes than a header");
+    std::string changed = kOwnCode;
+    changed.back() = static_cast<char>(changed.back() ^ 1);
+    EXPECT_EQ(detail::inflate(changed, 1300, out), "another checksum");
+    for (std::size_t length = 0; length < kOwnCode.size(); ++length)
+        EXPECT_NE(detail::inflate(kOwnCode.substr(0, length), 1300, out), "") << length;
+}
+
+// Any byte replaced: an error, or the same text where the bits had no meaning.
+TEST(Inflate, DoesNotCrashOnChangedBytes) {
+    for (std::size_t at = 0; at < kOwnCode.size(); ++at)
+        for (const char other : {'\0', '\x55', '\xff'}) {
+            std::string changed = kOwnCode, out;
+            changed[at] = other;
+            if (detail::inflate(changed, 1300, out).empty()) {
+                EXPECT_EQ(out, unpacked_text()) << at;
+            }
+        }
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ import sys
 import tempfile
 import threading
 import unittest
+import xml.etree.ElementTree as ElementTree
 import zipfile
 
 MODULE, SOURCES = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
@@ -183,10 +184,19 @@ class SampleTest(unittest.TestCase):
             mesh = pathlib.Path(folder, "one.mesh")
             mesh.write_text("MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
                             "Tetrahedra\n1\n1 2 3 4 7\n")
-            body = risorius.SoftBody({
+            described = {
                 "kind": "mesh", "mesh": {"file": str(mesh)}, "gravity_m_per_s2": [0, 0, -1],
                 "materials": [{"tags": [7], "law": "neo-hookean", "c10_pa": 400, "bulk_pa": 4000, "density_kg_per_m3": 100}],
-                "fixed": [{"low_m": [-1, -1, -1], "high_m": [2, 2, 0.5]}]}, method="quasi_static")
+                "fixed": [{"low_m": [-1, -1, -1], "high_m": [2, 2, 0.5]}]}
+            body = risorius.SoftBody(described, method="quasi_static")
+            risorius.write_feb(described, pathlib.Path(folder, "one.feb"))
+            feb = ElementTree.parse(pathlib.Path(folder, "one.feb")).getroot()
+            with self.assertRaises(risorius.Error):
+                risorius.write_feb(SoftBodyTest.BODY, pathlib.Path(folder, "none.feb"))
+        self.assertEqual(feb.attrib["version"], "4.0")
+        self.assertEqual([float(feb.find(f"Material/material/{key}").text) for key in ("c1", "c2", "k", "density")], [400, 0, 4000, 100])
+        self.assertEqual(feb.find("Mesh/NodeSet").text, "1,2,3")
+        self.assertEqual(feb.find("Loads/body_load/force").text, "0,0,1")
         body.advance(1)
         # One free node: what pulls it down, a quarter of the weight, stretches a column of a third of the volume
         self.assertEqual(body.tets.tolist(), [[0, 1, 2, 3]])

@@ -39,6 +39,13 @@ class MeshBodies : public testing::Test {
                 out << (2 * cell >= cells ? 2 : 1) << "\n";
             }
     }
+    /// The surface of 1 x 1 x `cells` cubes, facing outward.
+    void write_box(int cells) const {
+        std::ofstream out(folder_ / "box.obj");
+        for (int i = 0; i < 8; ++i)
+            out << "v " << (i & 1) << " " << (i >> 1 & 1) << " " << (i >> 2) * cells << "\n";
+        out << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    }
     Json column(const std::string& more = "{}") const {
         Json json = Json::parse(R"({"kind": "mesh", "gravity_m_per_s2": [0, 0, 0],
             "materials": [{"law": "mooney-rivlin", "c10_pa": 300, "c01_pa": 100, "bulk_pa": 40000,
@@ -46,6 +53,9 @@ class MeshBodies : public testing::Test {
         json["mesh"] =
             Json{{"file", (folder_ / "column.mesh").string()}, {"metres_per_unit", 0.01}};
         json.update(Json::parse(more));
+        Json& mesh = json["mesh"];
+        if (mesh.contains("surface"))
+            mesh["surface"] = (folder_ / mesh["surface"].get<std::string>()).string();
         return json;
     }
     SoftBody build(const Json& json) const {
@@ -149,6 +159,52 @@ TEST_F(MeshBodies, TakeTheMaterialOfTheirTag) {
                           matter.material_of[static_cast<std::size_t>(t)])]
                       .c10_pa,
                   t < 12 ? 400 : 900);
+}
+
+// A column of 1 x 1 x 10 cm as a surface, with nu = 0: it hangs by rho g L^2 / (2 E), with E = 2 mu.
+TEST_F(MeshBodies, FillASurfaceAndHangAsTheClosedForm) {
+    write_box(10);
+    const SoftBody body = build(column(R"({"mesh": {"surface": "box.obj", "spacing_m": 0.005,
+        "metres_per_unit": 0.01}, "gravity_m_per_s2": [0, 0, -9.81],
+        "materials": [{"law": "neo-hookean", "c10_pa": 50000, "bulk_pa": 66666.67,
+                       "density_kg_per_m3": 1000}],
+        "fixed": [{"low_m": [-1, -1, 0.0999], "high_m": [1, 1, 1]}]})"));
+    EXPECT_NEAR(body.volume(body.rest), 1e-5, 1e-17);
+    EXPECT_EQ(body.rest.rows(), 3 * 3 * 21);
+    solve::MotionState state = body.start();
+    solve::make_integrator(
+        {.method = solve::Method::kQuasiStatic, .step_s = 1, .length_scale_m = body.length_scale_m})
+        ->advance(body.system, state, 1);
+    double lower = 0;
+    int count = 0;
+    for (Eigen::Index i = 0; i < body.rest.rows(); ++i)
+        if (body.rest(i, 2) == 0) {
+            lower += body.rest(i, 2) - state.x(i, 2);
+            ++count;
+        }
+    EXPECT_EQ(count, 9);
+    EXPECT_NEAR(lower / count, 1000 * 9.81 * 0.01 / (2 * 200000), 0.01 * 2.4525e-4);
+}
+
+TEST_F(MeshBodies, SayWhatIsWrongWithASurface) {
+    write_box(1);
+    const auto with = [&](const std::string& mesh) {
+        return complaint(R"({"mesh": {"metres_per_unit": 1, )" + mesh + "}}");
+    };
+    EXPECT_EQ(
+        with(R"("surface": "box.obj", "spacing_m": 0.001)"),
+        "body:/mesh/spacing_m: expected at most 400000 cubes around the surface, found 0.001");
+    EXPECT_EQ(with(R"("surface": "box.obj")"),
+              "body:/mesh: expected the key \"spacing_m\", found none");
+    std::ofstream(folder_ / "open.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n";
+    EXPECT_EQ(
+        with(R"("surface": "open.obj", "spacing_m": 0.1)"),
+        "body:/mesh/surface: expected a closed surface with two polygons at every edge, found "
+        "\"open.obj\"");
+    std::ofstream(folder_ / "turned.obj")
+        << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 1 3 4\n";
+    EXPECT_EQ(with(R"("surface": "turned.obj", "spacing_m": 0.1)"),
+              "body:/mesh/surface: expected a surface that faces outward, found \"turned.obj\"");
 }
 
 TEST_F(MeshBodies, SayWhatIsWrong) {

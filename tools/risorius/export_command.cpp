@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/animate/export_fields.h"
-#include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
 #include "tools/risorius/commands.h"
 
@@ -15,12 +14,9 @@ namespace {
 struct ExportArguments {
     Common common;
     animate::ExportOptions options;
-    std::string format = "vtu";
 };
 
 void run_export(const ExportArguments& arguments) {
-    if (arguments.format != "vtu")
-        throw Error("--format", "\"vtu\"", "\"" + arguments.format + "\"");
     Json record;
     {
         ProgressBar bar(arguments.common);
@@ -31,28 +27,37 @@ void run_export(const ExportArguments& arguments) {
         return;
     }
     if (arguments.common.quiet) return;
-    for (const auto& [name, mesh] : record["meshes"].items())
-        std::printf("%-8s %7d points %7d cells\n", name.c_str(), mesh["points"].get<int>(),
-                    mesh["cells"].get<int>());
-    std::printf("%s: %d frames\n", (arguments.options.out / "face.pvd").string().c_str(),
-                record["frames"].get<int>());
+    const bool fields = record.contains("meshes");
+    if (fields) {
+        for (const auto& [name, mesh] : record["meshes"].items())
+            std::printf("%-8s %7d points %7d cells\n", name.c_str(), mesh["points"].get<int>(),
+                        mesh["cells"].get<int>());
+    } else {
+        std::printf("%d muscles\n", static_cast<int>(record["muscles"].size()));
+    }
+    const std::filesystem::path first = arguments.options.out / (fields ? "face.pvd" : "face.osim");
+    std::printf("%s: %d frames\n", first.string().c_str(), record["frames"].get<int>());
 }
 
 }  // namespace
 
 void add_export(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
-        "export", "Write tissue, muscles and skin of a script with their fields for ParaView");
+        "export",
+        "Write a script for other programs: fields of tissue, muscles and skin for ParaView, or "
+        "muscles for OpenSim");
     auto arguments = std::make_shared<ExportArguments>();
     animate::ExportOptions& options = arguments->options;
     command->add_option("SCRIPT", options.script, "A script")->required();
     command
         ->add_option("-o,--out", options.out,
-                     "The folder to write: DIR/face.pvd and its files, and DIR/results.json")
+                     "The folder to write: DIR/face.pvd or DIR/face.osim with its files, and "
+                     "DIR/results.json")
         ->required();
     command
-        ->add_option("--format", arguments->format,
-                     "vtu: unstructured grids and surfaces of VTK in XML, with series over time")
+        ->add_option("--format", options.format,
+                     "vtu: unstructured grids and surfaces of VTK in XML, with series over time; "
+                     "osim: the muscles as a model of OpenSim, with activations over time")
         ->capture_default_str();
     command
         ->add_option("--encoding", options.encoding,

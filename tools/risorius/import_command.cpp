@@ -73,13 +73,13 @@ void add_import(CLI::App& app) {
         ->add_option("FILE", options.file,
                      "The recording: a table of Live Link Face, OpenFace 2 or py-feat, JSON of "
                      "MediaPipe FaceLandmarker or ARKit, glTF or VRMA with an animation, a dump of "
-                     "VMC packets, or BVH (the head alone)")
+                     "VMC packets, BVH (the head alone), or activations of OpenSim (.sto, .mot)")
         ->required();
     command->add_option("-o,--out", options.out, "The script to write")->required();
     command->add_option(
         "--as", options.read.as,
         "Format of the file, if the program cannot recognise it: livelink, mediapipe, "
-        "openface, pyfeat, arkit, gltf, vmc or bvh");
+        "openface, pyfeat, arkit, gltf, vmc, bvh or storage");
     command->add_option("--rig", options.rig,
                         "The rig that the script names; without it, the adult rig");
     command->add_option("--fps", options.read.fps,

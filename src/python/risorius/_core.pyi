@@ -81,6 +81,7 @@ class SoftBody:
     @property
     def energy_j(self) -> float: ...
 
+def write_feb(body: Mapping[str, Any], file: _Path) -> None: ...
 def render(
     script: Union[_Path, Mapping[str, Any]],
     out: _Path,

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "risorius/animate/detail/osim_text.h"
 #include "risorius/animate/detail/ready_face.h"
 #include "risorius/animate/render_inputs.h"
 #include "risorius/animate/render_job.h"
@@ -212,25 +213,15 @@ RenderJob export_plan(const ExportOptions& options, RenderInputs& inputs) {
     return plan_render_job(request, inputs);
 }
 
-}  // namespace
-
-Json export_fields(const ExportOptions& options, const ProgressMonitor& monitor) {
+/// The fields of all frames as files of VTK. Adds what they are to the record.
+std::vector<std::string> write_fields(const ExportOptions& options, const RenderJob& job,
+                                      face::Face& face, const face::DriveAt& drive,
+                                      const std::filesystem::path& folder,
+                                      const ProgressMonitor& monitor, Json& record) {
     const io::VtkEncoding encoding =
-        index_of_name(option_name("encoding"), options.encoding, {"ascii", "appended"}) == 0
-            ? io::VtkEncoding::kAscii
-            : io::VtkEncoding::kAppended;
-    RenderInputs inputs(monitor);
-    const RenderJob job = export_plan(options, inputs);
-    report::AtomicFolder staged(options.out);
-
-    RenderSession session;
-    face::Face& face = ready_face(job, session);
-    const track::ChannelTable channels = job.rig->files.rig.channels();
-    const track::Timeline timeline(job.script, channels);
-    const face::DriveAt drive = [&](double t_s) { return timeline.at(t_s); };
+        options.encoding == "ascii" ? io::VtkEncoding::kAscii : io::VtkEncoding::kAppended;
     const Skin skin(face.head());
-    SeriesWriter series(staged.partial(), encoding);
-    face.start(drive);
+    SeriesWriter series(folder, encoding);
     for (int frame = 0; frame < job.frames; ++frame) {
         monitor.throw_if_stopped();
         const double time_s = job.time_s(frame);
@@ -244,6 +235,57 @@ Json export_fields(const ExportOptions& options, const ProgressMonitor& monitor)
         monitor.report((frame + 1.0) / job.frames, "frame");
     }
     series.finish();
+    record["meshes"] = series.meshes();
+    return series.files();
+}
+
+/// The muscles as a model of OpenSim, and their activations over time. Adds what they are to the record.
+std::vector<std::string> write_osim(const RenderJob& job, face::Face& face,
+                                    const face::DriveAt& drive, const std::filesystem::path& folder,
+                                    const ProgressMonitor& monitor, Json& record) {
+    const std::vector<face::MuscleLine> lines = face.fields().muscle_lines();
+    const std::vector<std::string> names = osim_names(lines),
+                                   columns = job.rig->files.rig.channels().column_names();
+    report::write_text(folder / "face.osim",
+                       osim_text(job.rig->files.rig.name, lines, face.fields().jaw_hinge()));
+    std::vector<double> times_s;
+    std::vector<std::vector<double>> rows;
+    for (int frame = 0; frame < job.frames; ++frame) {
+        monitor.throw_if_stopped();
+        times_s.push_back(job.time_s(frame));
+        face.pose_at(times_s.back(), drive);
+        const Eigen::VectorXd activation = face.activation_at(times_s.back());
+        rows.emplace_back();
+        for (const face::MuscleLine& line : lines) rows.back().push_back(activation[line.column]);
+        monitor.report((frame + 1.0) / job.frames, "frame");
+    }
+    report::write_text(folder / "activation.sto", storage_text("activation", names, times_s, rows));
+    record["muscles"] = Json::object();
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        record["muscles"][names[i]] =
+            json_object({{"column", columns[static_cast<std::size_t>(lines[i].column)]},
+                         {"points", lines[i].path.size()},
+                         {"f0_n", lines[i].f0_n},
+                         {"optimal_m", lines[i].optimal_m},
+                         {"slack_m", lines[i].slack_m}});
+    return {"face.osim", "activation.sto"};
+}
+
+}  // namespace
+
+Json export_fields(const ExportOptions& options, const ProgressMonitor& monitor) {
+    index_of_name(option_name("encoding"), options.encoding, {"ascii", "appended"});
+    const bool fields = index_of_name(option_name("format"), options.format, {"vtu", "osim"}) == 0;
+    RenderInputs inputs(monitor);
+    const RenderJob job = export_plan(options, inputs);
+    report::AtomicFolder staged(options.out);
+
+    RenderSession session;
+    face::Face& face = ready_face(job, session);
+    const track::ChannelTable channels = job.rig->files.rig.channels();
+    const track::Timeline timeline(job.script, channels);
+    const face::DriveAt drive = [&](double t_s) { return timeline.at(t_s); };
+    face.start(drive);
 
     Json record = Json::object();
     record["format"] = "risorius-export";
@@ -252,13 +294,14 @@ Json export_fields(const ExportOptions& options, const ProgressMonitor& monitor)
     record["script"] = job.script_file.path.generic_string();
     record["rig"] = job.rig->rig.path.generic_string();
     record["quality"] = job.quality.name;
-    record["encoding"] = options.encoding;
+    if (fields) record["encoding"] = options.encoding;
     record["frames"] = job.frames;
     record["times_s"] = Json::array();
     for (int frame = 0; frame < job.frames; ++frame) record["times_s"].push_back(job.time_s(frame));
-    record["meshes"] = series.meshes();
+    std::vector<std::string> files =
+        fields ? write_fields(options, job, face, drive, staged.partial(), monitor, record)
+               : write_osim(job, face, drive, staged.partial(), monitor, record);
     record["columns"] = channels.column_names();
-    std::vector<std::string> files = series.files();
     files.push_back("results.json");
     std::sort(files.begin(), files.end());
     record[report::kFilesKey] = files;

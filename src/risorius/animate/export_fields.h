@@ -9,6 +9,12 @@
 ///   DIR/tissue.pvd ...     the series over time; DIR/face.pvd has all of them
 ///   DIR/results.json       what was run, and the list of all files
 ///
+/// Or its muscles for OpenSim:
+///
+///   DIR/face.osim          the muscles at rest as paths with their parameters, mandible and hyoid
+///   DIR/activation.sto     the activation of each of these muscles over time
+///   DIR/results.json
+///
 /// Positions are in the world frame, m. The reference of displacement is the face at rest.
 #pragma once
 
@@ -26,6 +32,7 @@ struct ExportOptions {
     std::filesystem::path script;
     std::optional<std::filesystem::path> rig;  ///< instead of that of the script
     std::filesystem::path out;          ///< a folder that is new, empty or has former results
+    std::string format = "vtu";         ///< "vtu", "osim"
     std::string encoding = "appended";  ///< "appended" (binary) or "ascii"
     std::optional<int> fps;             ///< of the frames; else that of the script
     std::vector<double> times_s;        ///< only these times, ascending; empty: every frame

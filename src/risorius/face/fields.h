@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "risorius/core/types.h"
+#include "risorius/face/muscle_lines.h"
 
 namespace risorius::face {
 
@@ -79,6 +80,9 @@ class Fields {
     FaceFields at(double t_s) const;
     /// Returns the fields after the last step or equilibrium.
     FaceFields now() const;
+    /// Returns the muscles at rest as lines of action, in the order of their columns.
+    std::vector<MuscleLine> muscle_lines() const { return lines_of(*face_); }
+    JawHinge jaw_hinge() const { return jaw_hinge_of(*face_); }
 
   private:
     FaceImpl* face_;

@@ -20,13 +20,14 @@ TetMesh read_tet_mesh(const std::filesystem::path& file) {
                                    read_file(tets, detail::kMeshFile), tets.string());
     }
     using Reader = TetMesh (*)(std::string_view, const std::string&);
-    const Reader reader = ending == ".msh"    ? detail::read_msh
-                          : ending == ".vtk"  ? detail::read_legacy_vtk
-                          : ending == ".vtu"  ? detail::read_vtu
-                          : ending == ".mesh" ? detail::read_medit
-                                              : nullptr;
+    const Reader reader = ending == ".msh"     ? detail::read_msh
+                          : ending == ".vtk"   ? detail::read_legacy_vtk
+                          : ending == ".vtu"   ? detail::read_vtu
+                          : ending == ".mesh"  ? detail::read_medit
+                          : ending == ".meshb" ? detail::read_meditb
+                                               : nullptr;
     if (reader == nullptr)
-        throw Error(name, "an ending of .msh, .vtk, .vtu, .mesh, .node or .ele",
+        throw Error(name, "an ending of .msh, .vtk, .vtu, .mesh, .meshb, .node or .ele",
                     "\"" + ending + "\"");
     return reader(read_file(file, detail::kMeshFile), name);
 }

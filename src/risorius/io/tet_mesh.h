@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
 /// Reads tetrahedral meshes: Gmsh .msh (2 and 4.1, text and binary), VTK .vtk (legacy, text and binary) and .vtu (text, base64 and raw
-/// blocks, without compression), Medit .mesh (text), TetGen .node with .ele.
+/// blocks, also packed by zlib), Medit .mesh (text) and .meshb (binary), TetGen .node with .ele.
 ///
 /// Only linear tetrahedra are read; other elements are left out, and so are nodes that no tetrahedron has. Each tetrahedron has a tag:
 ///

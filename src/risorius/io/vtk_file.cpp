@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "risorius/core/json_cursor.h"
+#include "risorius/io/xml_writer.h"
 
 namespace risorius::io {
 
@@ -18,17 +19,6 @@ static_assert(std::endian::native == std::endian::little, "the blocks are writte
 
 void demand(bool fits, const std::string& what) {
     if (!fits) throw std::invalid_argument("VTK: " + what);
-}
-
-std::string xml_text(const std::string& text) {
-    std::string out;
-    for (const char c : text)
-        out += c == '&'   ? "&amp;"
-               : c == '<' ? "&lt;"
-               : c == '>' ? "&gt;"
-               : c == '"' ? "&quot;"
-                          : std::string(1, c);
-    return out;
 }
 
 std::string number_text(double value) { return format_number(value); }

@@ -42,6 +42,10 @@ void check(const ImportOptions& options) {
 /// Whether a rig has a channel of this name that can move.
 bool has_channel(const rig::RigDescription& rig, const std::string& name) {
     if (!track::kinematic_named(name).empty() || rig.facs.find_arkit(name)) return true;
+    const track::SidedName muscle = track::split_side(name);
+    const track::ChannelTable table = rig.channels();
+    if (const track::MuscleChannel* found = table.find(muscle.id))
+        return found->paired || !muscle.side;
     const track::ActionUnit* unit = rig.facs.find(name);
     return unit != nullptr && unit->unsupported.empty();
 }

@@ -10,6 +10,8 @@
 
 #include "risorius/core/existing_file.h"
 #include "risorius/core/known_names.h"
+#include "risorius/geom/filled_surface.h"
+#include "risorius/io/read_mesh.h"
 #include "risorius/io/tet_mesh.h"
 #include "risorius/softbody/detail/read_numbers.h"
 #include "risorius/tissue/gravity.h"
@@ -76,6 +78,40 @@ MeshRegion read_region(const JsonCursor& json) {
         out.along.normalize();
     }
     return out;
+}
+
+io::TetMesh tets_of(const MeshBodyDescription& description) {
+    io::TetMesh mesh = io::read_tet_mesh(description.file);
+    mesh.positions *= description.metres_per_unit;
+    return mesh;
+}
+
+/// The tetrahedra inside of a surface.
+io::TetMesh filled(const MeshBodyDescription& description) {
+    const geom::PolygonMesh surface =
+        io::read_mesh(description.file, {.metres_per_unit = description.metres_per_unit});
+    geom::NotFilled why{};
+    geom::FilledSurface solid = geom::fill_with_tets(surface.positions, geom::triangulate(surface),
+                                                     description.spacing_m, why);
+    const std::string place = description.place + "/mesh/",
+                      name = in_quotes(description.file.string());
+    if (why == geom::NotFilled::kOpen)
+        throw Error(place + "surface", "a closed surface with two polygons at every edge", name);
+    if (why == geom::NotFilled::kInsideOut)
+        throw Error(place + "surface", "a surface that faces outward", name);
+    if (why == geom::NotFilled::kTooFine)
+        throw Error(place + "spacing_m",
+                    "at most " + std::to_string(static_cast<long>(geom::kMostFillingCubes)) +
+                        " cubes around the surface",
+                    format_number(description.spacing_m));
+    if (why == geom::NotFilled::kTooCoarse)
+        throw Error(place + "spacing_m", "tetrahedra with their middle inside the surface",
+                    format_number(description.spacing_m));
+    io::TetMesh mesh;
+    mesh.positions = std::move(solid.nodes);
+    mesh.tets = std::move(solid.tets);
+    mesh.tags.assign(static_cast<std::size_t>(mesh.tets.rows()), 0);
+    return mesh;
 }
 
 /// The material of each tetrahedron.
@@ -178,8 +214,12 @@ MeshBodyDescription read_mesh_body(const JsonCursor& json) {
     out.place = json.place();
     if (out.place.ends_with('/')) out.place.pop_back();  // the top of a document
     const JsonCursor mesh = json.at("mesh");
-    mesh.allow_keys({"file", "metres_per_unit"});
-    out.file = existing_file(mesh.at("file"));
+    const bool surface = mesh.has("surface");
+    mesh.allow_keys(surface
+                        ? std::vector<std::string_view>{"surface", "spacing_m", "metres_per_unit"}
+                        : std::vector<std::string_view>{"file", "metres_per_unit"});
+    out.file = existing_file(mesh.at(surface ? "surface" : "file"));
+    if (surface) out.spacing_m = mesh.at("spacing_m").number({1e-9, 1e3});
     if (const auto unit = mesh.find("metres_per_unit"))
         out.metres_per_unit = unit->number({1e-9, 1e3});
     for (const JsonCursor& region : json.at("materials").items())
@@ -195,9 +235,9 @@ MeshBodyDescription read_mesh_body(const JsonCursor& json) {
 }
 
 SoftBody build_mesh_body(const MeshBodyDescription& description) {
-    const io::TetMesh mesh = io::read_tet_mesh(description.file);
+    const io::TetMesh mesh = description.spacing_m > 0 ? filled(description) : tets_of(description);
     tissue::HyperelasticBody matter;
-    matter.rest = description.metres_per_unit * mesh.positions;
+    matter.rest = mesh.positions;
     matter.tets = mesh.tets;
     matter.material_of = assign(description, mesh);
     matter.fibres.resize(mesh.tets.rows(), 3);

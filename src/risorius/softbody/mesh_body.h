@@ -9,6 +9,8 @@
 ///      {"law": "mooney-rivlin", "c10_pa": 300, "c01_pa": 100, "bulk_pa": 40000, "density_kg_per_m3": 1000}],
 ///    "fixed": [{"low_m": [-1, -1, -1], "high_m": [1, 1, 0]}], "gravity_m_per_s2": [0, 0, -9.81]}
 ///
+/// - "mesh" may have {"surface": "ball.obj", "spacing_m": 0.005} in place of the file of tetrahedra: a closed surface, which is filled with
+///   tetrahedra (geom/filled_surface.h). All have the tag 0.
 /// - "tags" (numbers) and "names" say which tetrahedra have the material. One material without both is that of all others.
 /// - Laws and their constants are those of tissue/hyperelastic.h: "neo-hookean" (c10_pa), "mooney-rivlin" (c10_pa, c01_pa), "ogden"
 ///   ("terms": [[modulus_pa, exponent], ...]), "fibres" (c10_pa, c01_pa, c3_pa, c4, c5_pa, straight, along).
@@ -42,6 +44,7 @@ struct MeshBodyDescription {
     std::string place;
     std::filesystem::path file;
     double metres_per_unit = 1;
+    double spacing_m = 0;  ///< of the tetrahedra that fill a surface; 0: the file has tetrahedra
     std::vector<MeshRegion> regions;
     std::vector<std::pair<Vec3, Vec3>> fixed;  ///< lowest and highest corner, m
     Vec3 gravity_m_per_s2{0, 0, -9.81};

@@ -30,16 +30,21 @@ Vec3 plane_centre(const tissue::GridShape& grid, const Points& x, int axis, bool
 
 }  // namespace
 
-softbody::BodyDescription changed_body(const JsonCursor& body,
-                                       const std::optional<JsonCursor>& change,
-                                       const std::string& case_name) {
-    if (!change) return softbody::read_body(body);
+JsonCursor changed_json(const JsonCursor& body, const std::optional<JsonCursor>& change,
+                        const std::string& case_name) {
+    if (!change) return body;
     change->keys();  // must be an object
     Json changed = body.json();
     changed.merge_patch(change->json());
-    return softbody::read_body(JsonCursor::from_json(json_object({{"body", changed}}),
-                                                     body.file().string() + " (" + case_name + ")")
-                                   .at("body"));
+    return JsonCursor::from_json(json_object({{"body", changed}}),
+                                 body.file().string() + " (" + case_name + ")")
+        .at("body");
+}
+
+softbody::BodyDescription changed_body(const JsonCursor& body,
+                                       const std::optional<JsonCursor>& change,
+                                       const std::string& case_name) {
+    return softbody::read_body(changed_json(body, change, case_name));
 }
 
 std::string grid_name(const tissue::GridShape& grid) {
@@ -114,14 +119,19 @@ Workload workload_of(const std::vector<BodyRun>& runs) {
     return load;
 }
 
+Shape shape_of(const softbody::SoftBody& body, const Points& x, const std::string& name,
+               const std::string& caption) {
+    return {.name = name,
+            .caption = caption,
+            .positions = x,
+            .surface = body.surface,
+            .wires = body.wires,
+            .fixed = body.fixed};
+}
+
 Shape shape_of(const softbody::BodyDescription& description, const softbody::SoftBody& body,
                const Points& x, const std::string& name, const std::string& caption) {
-    Shape shape{.name = name,
-                .caption = caption,
-                .positions = x,
-                .surface = body.surface,
-                .wires = body.wires,
-                .fixed = body.fixed};
+    Shape shape = shape_of(body, x, name, caption);
     const std::vector<double> stiffness = softbody::relative_stiffness(description);
     if (stiffness.empty()) return shape;
     const auto [min, max] = std::minmax_element(stiffness.begin(), stiffness.end());

@@ -17,6 +17,10 @@
 
 namespace risorius::figures {
 
+/// Returns the JSON of a body with `change` applied. Error messages name the file and the field within the changed body.
+JsonCursor changed_json(const JsonCursor& body, const std::optional<JsonCursor>& change,
+                        const std::string& case_name);
+
 /// Returns the body with `change` applied. Error messages name the file and the field within the changed body.
 softbody::BodyDescription changed_body(const JsonCursor& body,
                                        const std::optional<JsonCursor>& change,
@@ -51,6 +55,10 @@ Workload workload_of(const std::vector<BodyRun>& runs);
 /// to 1 at the stiffest one.
 Shape shape_of(const softbody::BodyDescription& description, const softbody::SoftBody& body,
                const Points& x, const std::string& name, const std::string& caption);
+
+/// The same for a body that is a mesh.
+Shape shape_of(const softbody::SoftBody& body, const Points& x, const std::string& name,
+               const std::string& caption);
 
 /// Returns the edges of the rest shape of a body, in the format of Shape::outline.
 Points rest_outline(const softbody::SoftBody& body);

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "risorius/figures/detail/body_cases.h"
 #include "risorius/figures/detail/equilibrium_run.h"
 #include "risorius/figures/detail/progress.h"
 #include "risorius/softbody/integrator_description.h"
+#include "risorius/softbody/mesh_body.h"
 
 namespace risorius::figures {
 namespace {
@@ -18,7 +20,17 @@ constexpr double kUnmeasured = std::numeric_limits<double>::quiet_NaN();
 struct Case {
     std::string name, caption, picture;
     softbody::BodyDescription body;
+    std::optional<softbody::MeshBodyDescription> mesh;  ///< replaces `body`
     bool to_equilibrium = true;
+
+    bool solid() const { return mesh || body.kind == softbody::Kind::kSolid; }
+    softbody::SoftBody build() const {
+        return mesh ? softbody::build_mesh_body(*mesh) : softbody::build_body(body);
+    }
+    Shape shape(const softbody::SoftBody& built, const Points& x) const {
+        return mesh ? shape_of(built, x, picture, caption)
+                    : shape_of(body, built, x, picture, caption);
+    }
 };
 
 /// Checks that "length_along" names an axis of the body.
@@ -39,8 +51,15 @@ std::vector<Case> read_cases(const JsonCursor& experiment) {
                 json.at("name").fail("a name of its own", "\"" + one.name + "\" again");
         one.caption = json.at("caption").string();
         one.picture = json.has("picture") ? json.at("picture").string() : one.name;
-        one.body = changed_body(experiment.at("body"), json.find("change"), one.name);
-        check_axis(experiment, one.body);
+        const JsonCursor body = changed_json(experiment.at("body"), json.find("change"), one.name);
+        if (softbody::is_mesh_body(body)) {
+            one.mesh = softbody::read_mesh_body(body);
+            if (experiment.has("length_along"))
+                experiment.at("length_along").fail("no axis, since a mesh has none");
+        } else {
+            one.body = softbody::read_body(body);
+            check_axis(experiment, one.body);
+        }
         if (const auto at = json.find("at"))
             one.to_equilibrium = at->one_of({"rest", "equilibrium"}) == "equilibrium";
         cases.push_back(std::move(one));
@@ -87,12 +106,12 @@ void run_equilibrium(const JsonCursor& experiment, const RunOptions& options, Ou
     parallel_for(static_cast<int>(cases.size()), options.threads, [&](int i) {
         const Case& one = cases[static_cast<std::size_t>(i)];
         Result& result = results[static_cast<std::size_t>(i)];
-        const softbody::SoftBody body = softbody::build_body(one.body);
+        const softbody::SoftBody body = one.build();
         result.equilibrium.x = body.rest;
         if (one.to_equilibrium)
             result.equilibrium = run_to_equilibrium(body, integrator, duration_s, options);
         const Points& x = result.equilibrium.x;
-        result.shape = shape_of(one.body, body, x, one.picture, one.caption);
+        result.shape = one.shape(body, x);
         if (one.to_equilibrium) result.shape.outline = rest_outline(body);
         if (body.kind == softbody::Kind::kSolid)
             result.volume_change_percent = 100 * (body.volume(x) / body.volume(body.rest) - 1);
@@ -116,7 +135,7 @@ void run_equilibrium(const JsonCursor& experiment, const RunOptions& options, Ou
             outcome.measured.add("length_ratio/" + name, "", result.extent.length_ratio);
             outcome.measured.add("drift_ratio/" + name, "", result.extent.drift_ratio);
         }
-        if (cases[i].body.kind == softbody::Kind::kSolid)
+        if (cases[i].solid())
             outcome.measured.add("volume_change_percent/" + name, "%",
                                  result.volume_change_percent);
         outcome.measured.add("greatest_move_m/" + name, "m", result.max_move_m);

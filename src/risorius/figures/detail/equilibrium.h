@@ -6,6 +6,8 @@
 ///   "cases": [{"name": "eta-3x3x3", "caption": "...", "change": {...}, "at": "equilibrium", "picture": "eta"}],
 ///   "length_along": "a3"
 ///
+/// A body may be a mesh of tetrahedra (softbody/mesh_body.h).
+///
 /// "at": "rest" draws the undeformed shape. Consecutive cases with the same "picture" stand side by side in it. "length_along"
 /// selects the axis along which the length is measured. Measures per case: length_ratio/<name>, drift_ratio/<name>,
 /// volume_change_percent/<name>, greatest_move_m/<name> (largest displacement of a node), force_ratio/<name> (residual force, see

@@ -2,16 +2,10 @@
 #include "risorius/figures/detail/known_problems.h"
 
 #include <cmath>
-#include <limits>
-#include <memory>
 #include <numbers>
-#include <string>
 
-#include "risorius/core/error.h"
-#include "risorius/solve/newton.h"
-#include "risorius/tissue/bending_cells.h"
-#include "risorius/tissue/cell_solid.h"
-#include "risorius/tissue/dead_loads.h"
+#include "risorius/figures/detail/problem_setup.h"
+#include "risorius/figures/detail/thick_plate.h"
 #include "risorius/tissue/moduli.h"
 
 namespace risorius::figures {
@@ -22,82 +16,11 @@ using tissue::GridShape;
 
 constexpr double kSlender = 10;  // length of bars over their edge or radius
 
-/// Constant forces as an energy term.
-class Loads : public solve::EnergyTerm {
-  public:
-    explicit Loads(std::vector<tissue::DeadLoads::Load> loads) { loads_.set(std::move(loads)); }
-    double add_potential(const solve::ImplicitStep&, const Points& x,
-                         Points& gradient) const override {
-        return loads_.add_energy(x, gradient);
-    }
-    void add_hessian(const solve::ImplicitStep&, const Points&, solve::Curvature,
-                     solve::HessianBuilder&) const override {}
-    void add_metric(double, solve::MetricBuilder&) const override {}
-
-  private:
-    tissue::DeadLoads loads_;
-};
-
-/// A solid with its loads and fixed nodes, at the positions from which the solver starts.
-struct Setup {
-    tissue::CellBody body;
-    std::shared_ptr<solve::EnergyTerm> solid;
-    std::vector<char> fixed;
-    std::vector<tissue::DeadLoads::Load> loads = {};
-    Points x;
-
-    Setup(const GridShape& grid, const tissue::RestShape& rest, const KnownMaterial& material)
-        : body(tissue::cell_body(tissue::uniform_cells(grid), rest, material.moduli(), 1)),
-          fixed(static_cast<std::size_t>(grid.size()), 0),
-          x(body.rest) {
-        if (material.bending_cells)
-            solid = std::make_shared<tissue::BendingCells>(body);
-        else
-            solid = std::make_shared<tissue::CellSolid>(body);
-    }
-
-    const Points& rest() const { return body.rest; }
-    void fix(int node) { fixed[static_cast<std::size_t>(node)] = 1; }
-
-    /// Brings x into equilibrium.
-    void settle() {
-        const long n = x.rows();
-        solve::MotionSystem system(Eigen::VectorXd::Ones(n), fixed);
-        system.add(solid);
-        system.add(std::make_shared<Loads>(loads));
-        const double size = (rest().colwise().maxCoeff() - rest().colwise().minCoeff()).maxCoeff();
-        const Points start = x;
-        const solve::ImplicitStep forever{0, std::numeric_limits<double>::infinity(), start};
-        const solve::NewtonReport report = solve::Newton().solve_equilibrium(
-            system, forever, {.iterations = 200, .tolerance_m = 1e-9 * size, .first_step_s = 1e3},
-            x);
-        if (!report.converged) throw RunError("a problem of verification did not come to rest");
-    }
-
-    /// The force that holds each node, N: dE/dx of the solid alone.
-    Points holding() const {
-        Points force = Points::Zero(x.rows(), 3);
-        solid->add_force(0, x, Points::Zero(x.rows(), 3), force);
-        return -force;
-    }
-};
-
-/// Shares `force` among the nodes of a plane of a1 as a traction that is the same everywhere does.
-void load_plane(const GridShape& grid, int plane, const Vec3& force, Setup& setup) {
-    const double cells = (grid.n - 1.0) * (grid.o - 1.0);
-    for (int n = 0; n < grid.n; ++n)
-        for (int o = 0; o < grid.o; ++o) {
-            const double share = (n == 0 || n == grid.n - 1 ? 0.5 : 1) *
-                                 (o == 0 || o == grid.o - 1 ? 0.5 : 1) / cells;
-            setup.loads.push_back({grid.index(plane, n, o), share * force});
-        }
+void load_end(const GridShape& grid, const Vec3& force, ProblemSetup& setup) {
+    setup.load_plane(grid, grid.m - 1, force);
 }
 
-void load_end(const GridShape& grid, const Vec3& force, Setup& setup) {
-    load_plane(grid, grid.m - 1, force, setup);
-}
-
-void clamp_start(const GridShape& grid, Setup& setup) {
+void clamp_start(const GridShape& grid, ProblemSetup& setup) {
     for (int n = 0; n < grid.n; ++n)
         for (int o = 0; o < grid.o; ++o) setup.fix(grid.index(0, n, o));
 }
@@ -111,7 +34,7 @@ double timoshenko(const KnownMaterial& material) {
 }
 
 /// How far the nodes of a plane of a1 have risen on average.
-double rise(const GridShape& grid, int plane, const Setup& setup) {
+double rise(const GridShape& grid, int plane, const ProblemSetup& setup) {
     double sum = 0;
     for (int n = 0; n < grid.n; ++n)
         for (int o = 0; o < grid.o; ++o) {
@@ -124,8 +47,9 @@ double rise(const GridShape& grid, int plane, const Setup& setup) {
 constexpr double kDeflection = 1e-3 * kSlender;
 
 double cantilever(const KnownMaterial& material, int cells) {
-    const GridShape grid{static_cast<int>(kSlender) * cells + 1, cells + 1, cells + 1};
-    Setup setup(
+    const GridShape grid{static_cast<int>(kSlender) * cells * material.lengthwise + 1, cells + 1,
+                         cells + 1};
+    ProblemSetup setup(
         grid, [](const Vec3& a) { return Vec3(kSlender * a[0], a[1], a[2]); }, material);
     clamp_start(grid, setup);
     load_end(grid, Vec3(0, 0, kDeflection / timoshenko(material)), setup);
@@ -137,12 +61,12 @@ double cantilever(const KnownMaterial& material, int cells) {
 double bar(const KnownMaterial& material, int cells) {
     const int middle = static_cast<int>(kSlender) * cells;
     const GridShape grid{2 * middle + 1, cells + 1, cells + 1};
-    Setup setup(
+    ProblemSetup setup(
         grid, [](const Vec3& a) { return Vec3(2 * kSlender * a[0], a[1], a[2]); }, material);
     const Vec3 force(0, 0, kDeflection / timoshenko(material));
-    load_plane(grid, 0, force, setup);
-    load_plane(grid, middle, -2 * force, setup);
-    load_plane(grid, 2 * middle, force, setup);
+    setup.load_plane(grid, 0, force);
+    setup.load_plane(grid, middle, -2 * force);
+    setup.load_plane(grid, 2 * middle, force);
     setup.fix(grid.index(middle, cells / 2, cells / 2));  // bears nothing
     setup.settle();
     const double ends = 0.5 * (rise(grid, 0, setup) + rise(grid, 2 * middle, setup));
@@ -154,7 +78,7 @@ double cook(const KnownMaterial& material, int cells) {
     const auto panel = [](const Vec3& a) {
         return Vec3(48 * a[0], 44 * a[0] + (44 - 28 * a[0]) * a[1], a[2]);
     };
-    Setup setup(grid, panel, material);
+    ProblemSetup setup(grid, panel, material);
     clamp_start(grid, setup);
     const double force = 1e-4 * material.young_pa;
     load_end(grid, Vec3(0, force, 0), setup);
@@ -172,7 +96,7 @@ double patch(const KnownMaterial& material, int cells) {
             2 * std::numbers::pi * cells * Vec3(0.31 * a[1], 0.47 * a[2], 0.59 * a[0]);
         return a + inside * (phase.array() + 1).sin().matrix();
     };
-    Setup setup(grid, distorted, material);
+    ProblemSetup setup(grid, distorted, material);
     Mat3 f;
     f << 1.1, 0.2, -0.05, -0.15, 0.95, 0.1, 0.05, -0.1, 1.05;
     const Points goal = setup.rest() * f.transpose();
@@ -195,7 +119,7 @@ double torsion(const KnownMaterial& material, int cells) {
         const double y = 2 * a[1] - 1, z = 2 * a[2] - 1;
         return Vec3(kSlender * a[0], y * std::sqrt(1 - z * z / 2), z * std::sqrt(1 - y * y / 2));
     };
-    Setup setup(grid, round, material);
+    ProblemSetup setup(grid, round, material);
     clamp_start(grid, setup);
     const double twist = 1e-3;
     for (int n = 0; n < grid.n; ++n)
@@ -257,7 +181,7 @@ Vec3 given_body_force(const Vec3& at, const tissue::CellModuli& moduli) {
 
 double manufactured(const KnownMaterial& material, int cells) {
     const GridShape grid{cells + 1, cells + 1, cells + 1};
-    Setup setup(
+    ProblemSetup setup(
         grid, [](const Vec3& a) -> Vec3 { return a; }, material);
     Points goal = setup.rest();
     for (long node = 0; node < goal.rows(); ++node) {
@@ -297,6 +221,7 @@ const std::vector<KnownProblem>& known_problems() {
     static const std::vector<KnownProblem> kList{
         {"cantilever", "deflection_ratio", 1, true, cantilever},
         {"bar", "deflection_ratio", 1, true, bar},
+        {"thick-plate", "stress", 5.38, false, thick_plate},  // NAFEMS LE10
         {"cook", "tip", 23.96, false, cook},  // Simo & Rifai 1990, plane stress with nu = 1/3
         {"patch", "error", 0, false, patch},
         {"torsion", "torque_ratio", 1, false, torsion},

@@ -15,6 +15,7 @@ namespace risorius::figures {
 struct KnownMaterial {
     double young_pa = 1, poisson_ratio = 0;
     bool bending_cells = false;  ///< tissue::BendingCells in place of tissue::CellSolid
+    int lengthwise = 1;          ///< cells along the cantilever for each cell across
     tissue::CellModuli moduli() const;
     double shear_pa() const { return young_pa / (2 * (1 + poisson_ratio)); }
 };

@@ -14,15 +14,31 @@ constexpr double kRounding = 1e-12;  // distances below this have no order
 
 struct VerificationPlan {
     const KnownProblem* problem = nullptr;
-    bool bending_cells = false;
-    double young_pa = 0;
+    KnownMaterial material;  ///< without Poisson's ratio
     std::vector<double> poisson_ratios;
-    std::vector<int> cells;  ///< ascending
+    std::vector<double> solutions;  ///< for each Poisson's ratio, times that of the problem
+    std::vector<int> cells;         ///< ascending
 };
 
+/// What a cantilever alone may have.
+void read_clamped(const JsonCursor& experiment, VerificationPlan& plan) {
+    plan.solutions.assign(plan.poisson_ratios.size(), 1);
+    for (const char* key : {"lengthwise", "solutions"})
+        if (experiment.has(key) && plan.problem->name != "cantilever")
+            experiment.at(key).fail("no such key but for the problem \"cantilever\"");
+    if (const auto lengthwise = experiment.find("lengthwise"))
+        plan.material.lengthwise = lengthwise->integer(1, 8);
+    const auto solutions = experiment.find("solutions");
+    if (!solutions) return;
+    const std::vector<JsonCursor> list = solutions->items();
+    if (list.size() != plan.solutions.size())
+        solutions->fail("one number for each of \"poisson_ratios\"", std::to_string(list.size()));
+    for (std::size_t i = 0; i < list.size(); ++i) plan.solutions[i] = list[i].number({0.5, 2});
+}
+
 VerificationPlan read_verification(const JsonCursor& experiment) {
-    allow_experiment_keys(experiment,
-                          {"problem", "element", "young_pa", "poisson_ratios", "cells"});
+    allow_experiment_keys(experiment, {"problem", "element", "young_pa", "poisson_ratios", "cells",
+                                       "lengthwise", "solutions"});
     VerificationPlan plan;
     std::vector<std::string_view> names;
     for (const KnownProblem& problem : known_problems()) names.push_back(problem.name);
@@ -30,22 +46,24 @@ VerificationPlan read_verification(const JsonCursor& experiment) {
     for (const KnownProblem& problem : known_problems())
         if (problem.name == name) plan.problem = &problem;
     if (const auto element = experiment.find("element")) {
-        plan.bending_cells = element->one_of({"cells", "bending-cells"}) == "bending-cells";
-        if (plan.bending_cells && !plan.problem->boxes)
+        plan.material.bending_cells =
+            element->one_of({"cells", "bending-cells"}) == "bending-cells";
+        if (plan.material.bending_cells && !plan.problem->boxes)
             element->fail("cells: those of this problem are no boxes");
     }
-    plan.young_pa = experiment.at("young_pa").number({1e-6, 1e12});
+    plan.material.young_pa = experiment.at("young_pa").number({1e-6, 1e12});
     for (const JsonCursor& json : experiment.at("poisson_ratios").items())
         plan.poisson_ratios.push_back(json.number({0, 0.4999}));
     for (const JsonCursor& json : experiment.at("cells").items()) {
         plan.cells.push_back(json.integer(1, 40));
         if (plan.cells.size() > 1 && plan.cells.back() <= plan.cells[plan.cells.size() - 2])
             json.fail("more cells than before");
-        const bool even = name == "cook" || name == "torsion";
+        const bool even = name == "cook" || name == "torsion" || name == "thick-plate";
         if (even && plan.cells.back() % 2 != 0) json.fail("an even number of cells");
         if (name == "patch" && plan.cells.back() < 2) json.fail("2 cells at least");
     }
     if (plan.poisson_ratios.empty()) experiment.at("poisson_ratios").fail("at least one");
+    read_clamped(experiment, plan);
     if (plan.cells.empty()) experiment.at("cells").fail("at least one");
     return plan;
 }
@@ -65,9 +83,10 @@ void run_verification(const JsonCursor& experiment, const RunOptions& options, O
         // The longest first
         const std::size_t at = found.size() - 1 - static_cast<std::size_t>(i);
         options.monitor.throw_if_stopped();
-        found[at] = plan.problem->solve(
-            {plan.young_pa, plan.poisson_ratios[at / meshes], plan.bending_cells},
-            plan.cells[at % meshes]);
+        KnownMaterial material = plan.material;
+        material.poisson_ratio = plan.poisson_ratios[at / meshes];
+        found[at] =
+            plan.problem->solve(material, plan.cells[at % meshes]) / plan.solutions[at / meshes];
         progress.done(work(at), std::to_string(plan.cells[at % meshes]) + " cells");
     });
 

@@ -4,7 +4,7 @@
 ///
 ///   "problem": "cantilever", "young_pa": 1000, "poisson_ratios": [0, 0.3, 0.49, 0.499], "cells": [1, 2, 4, 8]
 ///
-/// cells   number of cells across the body (cantilever, torsion) or along each edge (cook, patch, manufactured)
+/// cells   number of cells across the body (cantilever, torsion), through it (thick-plate) or along each edge (cook, patch, manufactured)
 /// nu      each of the Poisson's ratios; K is Lame's first parameter, mu the shear modulus
 ///
 /// problem       solution                                                                    measures
@@ -14,7 +14,13 @@
 ///               plane stress, clamped at the left, F upwards at the right                   of the right edge
 /// patch         x = F X, F constant, on a distorted mesh                                     error/<nu>/<cells>: farthest node / edge
 /// torsion       T = mu pi R^4 / 2 theta / L, a round bar, L = 10 R                           torque_ratio/<nu>/<cells>: T / that
+/// thick-plate   a quarter of an elliptic ring under pressure (LE10 of NAFEMS 1990),        stress/<nu>/<cells>: - sigma_yy over the
+///               sigma_yy = -5.38 of the pressure                                            pressure at the inner edge of the face
 /// manufactured  x = X + u, u smooth and given, with the body force - Div P that it needs     error/<nu>/<cells>: RMS / RMS of u
+///
+/// A clamp also keeps the section of the cantilever from changing, which Timoshenko's beam leaves out. "solutions" are the deflections with
+/// it over Timoshenko's, one for each nu (a second program finds them: tests/second/clamped_bar.py); deflection_ratio is then w over them.
+/// "lengthwise" is the number of cells along the cantilever for each cell across; 1: cubes.
 ///
 /// For each two neighbours in "cells", order/<nu>/<cells> is the power of the spacing with which the distance from the solution falls.
 /// Loads are so small that the response is linear, but for patch and manufactured, which have finite strains.

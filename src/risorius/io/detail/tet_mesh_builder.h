@@ -48,6 +48,7 @@ TetMesh read_msh(std::string_view bytes, const std::string& name);
 TetMesh read_legacy_vtk(std::string_view bytes, const std::string& name);
 TetMesh read_vtu(std::string_view bytes, const std::string& name);
 TetMesh read_medit(std::string_view bytes, const std::string& name);
+TetMesh read_meditb(std::string_view bytes, const std::string& name);
 TetMesh read_tetgen(std::string_view nodes, const std::string& nodes_name, std::string_view tets,
                     const std::string& tets_name);
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Unstructured grids of VTK in XML: text, base64 and raw blocks. Source: VTK File Formats, in The VTK User's Guide, Kitware, 11th edition, 2010.
+// Unstructured grids of VTK in XML: text, base64 and raw blocks, also packed by zlib. Source: VTK File Formats, in The VTK User's Guide, Kitware, 11th edition, 2010.
 #include <bit>
 #include <map>
 #include <optional>
 
 #include "risorius/core/error.h"
+#include "risorius/io/detail/inflate.h"
 #include "risorius/io/detail/mesh_limits.h"
 #include "risorius/io/detail/mesh_scanner.h"
 #include "risorius/io/detail/tet_mesh_builder.h"
@@ -13,6 +14,8 @@
 namespace risorius::io::detail {
 
 namespace {
+
+constexpr std::size_t kMostNodesOfACell = 64;
 
 using Attributes = std::map<std::string, std::string, std::less<>>;
 
@@ -134,8 +137,10 @@ class VtuReader {
         if (tag_ == "VTKFile") {
             if (attribute("type") != "UnstructuredGrid")
                 fail("the type UnstructuredGrid", "\"" + attribute("type").substr(0, 24) + "\"");
-            if (!attribute("compressor").empty())
-                fail("a file without compression", attribute("compressor").substr(0, 40));
+            compressed_ = !attribute("compressor").empty();
+            if (compressed_ && attribute("compressor") != "vtkZLibDataCompressor")
+                fail("a file without compression, or with vtkZLibDataCompressor",
+                     attribute("compressor").substr(0, 40));
             swapped_ = (attribute("byte_order") == "BigEndian") ==
                        (std::endian::native == std::endian::little);
             long_header_ = attribute("header_type") == "UInt64";
@@ -197,7 +202,8 @@ class VtuReader {
             }
         } else if (form == "binary") {
             const std::size_t end = std::min(text_.find('<', at_), text_.size());
-            out = of_block(decoded_base64(text_.substr(at_, end - at_), std::string::npos), of);
+            out = of_block(decoded_base64(text_.substr(at_, end - at_), std::string::npos), of,
+                           expected);
         } else if (form == "appended") {
             const std::string offset_text = attribute("offset");
             MeshScanner in(offset_text, name_);
@@ -207,10 +213,12 @@ class VtuReader {
                 fail("an offset within the appended data", std::to_string(offset));
             const std::string_view from = text_.substr(appended_ + offset);
             if (raw_) {
-                out = of_block(from, of);
+                out = of_block(from, of, expected);
             } else {
-                const std::string head = decoded_base64(from, header_bytes());
-                out = of_block(decoded_base64(from, header_bytes() + block_bytes(head)), of);
+                std::string head = decoded_base64(from, header_bytes());
+                if (compressed_) head = decoded_base64(from, head_bytes(head));
+                out = of_block(decoded_base64(from, head_bytes(head) + block_bytes(head)), of,
+                               expected);
             }
         } else {
             fail("the format ascii, binary or appended", "\"" + form.substr(0, 24) + "\"");
@@ -222,29 +230,70 @@ class VtuReader {
     }
 
     std::size_t header_bytes() const { return long_header_ ? 8 : 4; }
-    /// The length of a block, as its header says.
-    std::size_t block_bytes(std::string_view block) const {
-        if (block.size() < header_bytes()) fail("the length of a block", "fewer bytes");
-        const double length = numbers_of(block.substr(0, header_bytes()),
+    /// One number of the header of a block.
+    std::size_t header_number(std::string_view block, std::size_t index) const {
+        if (block.size() / header_bytes() <= index) fail("the length of a block", "fewer bytes");
+        const double number = numbers_of(block.substr(index * header_bytes(), header_bytes()),
                                          long_header_ ? Scalar::kUInt64 : Scalar::kUInt32, swapped_)
                                   .front();
-        if (!(length <= static_cast<double>(text_.size())))
-            fail("a block within the file", "one of " + std::to_string(length) + " bytes");
-        return static_cast<std::size_t>(length);
+        if (!(number <= 1e12)) fail("a block within the file", "one of more than 1e12 bytes");
+        return static_cast<std::size_t>(number);
     }
-    std::vector<double> of_block(std::string_view block, Scalar of) const {
-        const std::size_t length = block_bytes(block);
-        if (length > block.size() - header_bytes())
-            fail("a block of " + std::to_string(length) + " bytes",
-                 std::to_string(block.size() - header_bytes()));
-        return numbers_of(block.substr(header_bytes(), length), of, swapped_);
+    /// The length of the header: a length; or the number of packed parts, the size of a part and of the last one, and packed sizes.
+    std::size_t head_bytes(std::string_view block) const {
+        if (!compressed_) return header_bytes();
+        const std::size_t parts = header_number(block, 0);
+        if (parts > text_.size())
+            fail("a block within the file", "one of " + std::to_string(parts) + " parts");
+        return (3 + parts) * header_bytes();
+    }
+    /// The length of a block behind its header.
+    std::size_t block_bytes(std::string_view block) const {
+        std::size_t length = 0;
+        if (!compressed_) {
+            length = header_number(block, 0);
+        } else {
+            for (std::size_t part = header_number(block, 0); part > 0; --part)
+                length += header_number(block, 2 + part);
+        }
+        if (length > text_.size())
+            fail("a block within the file", "one of " + std::to_string(length) + " bytes");
+        return length;
+    }
+    std::vector<double> of_block(std::string_view block, Scalar of,
+                                 std::optional<std::size_t> expected) const {
+        const std::size_t head = head_bytes(block), length = block_bytes(block);
+        if (block.size() < head || length > block.size() - head)
+            fail("a block of " + std::to_string(head + length) + " bytes",
+                 std::to_string(block.size()));
+        if (!compressed_) return numbers_of(block.substr(head, length), of, swapped_);
+        // A file packs a thousandth of what it can unpack to: no more than there is room for in the mesh
+        const std::size_t most = bytes_of(of) * expected.value_or(kMostNodesOfACell * cell_count_);
+        std::string unpacked;
+        const std::size_t parts = header_number(block, 0), last = header_number(block, 2);
+        std::size_t at = head;
+        for (std::size_t part = 0; part < parts; ++part) {
+            const std::size_t packed = header_number(block, 3 + part);
+            const std::size_t bytes =
+                part + 1 == parts && last > 0 ? last : header_number(block, 1);
+            const std::size_t before = unpacked.size();
+            if (bytes > most - before)
+                fail("at most " + std::to_string(most) + " bytes in a block",
+                     std::to_string(before + bytes));
+            const std::string wrong = inflate(block.substr(at, packed), bytes, unpacked);
+            if (!wrong.empty() || unpacked.size() - before != bytes)
+                fail("a block of zlib with " + std::to_string(bytes) + " bytes",
+                     wrong.empty() ? std::to_string(unpacked.size() - before) + " bytes" : wrong);
+            at += packed;
+        }
+        return numbers_of(unpacked, of, swapped_);
     }
 
     std::string_view text_;
     std::string name_;
     VtkCells cells_;
     std::size_t at_ = 0, xml_end_ = std::string_view::npos, appended_ = 0;
-    bool raw_ = false, swapped_ = false, long_header_ = false;
+    bool raw_ = false, swapped_ = false, long_header_ = false, compressed_ = false;
     std::string tag_, section_;
     Attributes attributes_;
     int pieces_ = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
 /// One reader for each format of recorded motion. Sources: the files and manuals of the programs that write them (Live Link Face,
-/// MediaPipe FaceLandmarker, OpenFace 2, py-feat, VMC protocol), Biovision BVH, glTF 2.0, VRMC_vrm_animation 1.0.
+/// MediaPipe FaceLandmarker, OpenFace 2, py-feat, VMC protocol), Biovision BVH, OpenSim storage, glTF 2.0, VRMC_vrm_animation 1.0.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -30,6 +30,7 @@ RecordedMotion read_arkit_json(const std::filesystem::path& file);
 RecordedMotion read_gltf_motion(const std::filesystem::path& file, double fps);
 RecordedMotion read_vmc(const std::filesystem::path& file);
 RecordedMotion read_bvh(const std::filesystem::path& file);
+RecordedMotion read_storage(const std::filesystem::path& file, double fps);
 
 /// The spelling of ARKit for a name of any case and with or without "_", " " or "." in it; empty for others.
 std::string arkit_spelling(std::string_view name);

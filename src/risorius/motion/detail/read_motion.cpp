@@ -29,6 +29,7 @@ std::string format_of(const std::filesystem::path& file) {
     };
     if (text.starts_with("glTF")) return "gltf";
     if (text.starts_with("HIERARCHY")) return "bvh";
+    if (has("\nendheader")) return "storage";
     if (text.starts_with("{") || text.starts_with("[")) {
         if (has("aceBlendshapes") || has("face_blendshapes")) return "mediapipe";
         if (has("\"asset\"") && has("\"accessors\"")) return "gltf";
@@ -52,8 +53,8 @@ std::string format_of(const std::filesystem::path& file) {
 }  // namespace
 
 const std::vector<std::string>& motion_formats() {
-    static const std::vector<std::string> kNames{"livelink", "mediapipe", "openface", "pyfeat",
-                                                 "arkit",    "gltf",      "vmc",      "bvh"};
+    static const std::vector<std::string> kNames{
+        "livelink", "mediapipe", "openface", "pyfeat", "arkit", "gltf", "vmc", "bvh", "storage"};
     return kNames;
 }
 
@@ -72,6 +73,7 @@ RecordedMotion read_motion(const std::filesystem::path& file, const ReadMotionOp
     if (as == "arkit") return detail::read_arkit_json(file);
     if (as == "gltf") return detail::read_gltf_motion(file, options.fps);
     if (as == "vmc") return detail::read_vmc(file);
+    if (as == "storage") return detail::read_storage(file, options.fps);
     return detail::read_bvh(file);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Motion of a face as a tracker recorded it, in the terms of a script: weights of ARKit shapes, intensities of action units, and
-/// angles of head and eyes in degrees.
+/// Motion of a face as a tracker recorded it, in the terms of a script: weights of ARKit shapes, intensities of action units,
+/// activations of muscles, and angles of head and eyes in degrees.
 ///
 /// Angles are those of scripts: yaw > 0 to the subject's left, pitch > 0 up, roll > 0 to the subject's left shoulder. In a frame
 /// with x to the subject's left, y up and z out of the face, the head is turned by Ry(yaw) Rx(-pitch) Rz(-roll).
@@ -44,7 +44,7 @@ struct ReadMotionOptions {
         0;  ///< rate of files that do not say it; 0: that of the file, or the usual one of the format
 };
 
-/// Returns the formats that are read: "livelink", "mediapipe", "openface", "pyfeat", "arkit", "gltf", "vmc", "bvh".
+/// Returns the formats that are read: "livelink", "mediapipe", "openface", "pyfeat", "arkit", "gltf", "vmc", "bvh", "storage".
 const std::vector<std::string>& motion_formats();
 
 /// Reads a recording. Throws Error for a file of no known format, and for one that breaks its format.

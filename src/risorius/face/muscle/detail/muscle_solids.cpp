@@ -404,6 +404,35 @@ std::optional<double> MuscleSolids::greatest_force_n(int column) const {
     return std::nullopt;
 }
 
+std::vector<MuscleSolids::Line> MuscleSolids::lines() const {
+    using Body = rig::PathPoint::Body;
+    std::vector<Line> out;
+    for (const Part& part : parts_) {
+        const tissue::GridShape& grid = part.place.grid;
+        Line line{
+            .muscle = part.place.muscle->id, .column = part.place.column, .path = {}, .body = {}};
+        line.chain = part.chains->properties();
+        line.f0_n = part.chains->size() * line.chain.f0_n;
+        for (int m = 0; m < grid.m; ++m) {
+            Vec3 sum = Vec3::Zero();
+            double jaw = 0;
+            bool bone = false;
+            for (int n = 0; n < grid.n; ++n)
+                for (int o = 0; o < grid.o; ++o) {
+                    const SolidNode& node = placement_.nodes[static_cast<std::size_t>(
+                        part.place.node[static_cast<std::size_t>(grid.index(m, n, o))])];
+                    sum += node.rest / (grid.n * grid.o);
+                    jaw += node.jaw_fraction / (grid.n * grid.o);
+                    bone |= node.on_bone;
+                }
+            line.path.push_back(sum);
+            line.body.push_back(!bone ? Body::kSoft : jaw > 0.5 ? Body::kMandible : Body::kSkull);
+        }
+        out.push_back(std::move(line));
+    }
+    return out;
+}
+
 std::vector<SolidFigures> MuscleSolids::figures(const Points& x,
                                                 const Eigen::VectorXd& activation) const {
     std::vector<SolidFigures> out;

@@ -114,6 +114,16 @@ class MuscleSolids {
     std::vector<SolidCellState> cell_states(const Points& x,
                                             const Eigen::VectorXd& activation) const;
     double max_volume_error(const Points& x) const;  ///< maximum of |volume / rest volume - 1|
+    /// One side of a muscle as the mean of its fibres at rest.
+    struct Line {
+        std::string muscle;
+        int column = 0;
+        std::vector<Vec3> path;                  ///< from origin to insertion, m, head frame
+        std::vector<rig::PathPoint::Body> body;  ///< that each point moves with
+        double f0_n = 0;                         ///< of all chains
+        muscle::ChainProperties chain;
+    };
+    std::vector<Line> lines() const;
     /// Adds smooth surfaces of all muscles for drawing. place_surfaces() then writes their rows of `vertices`, m.
     void add_surfaces(MuscleSurfaces& surfaces);
     void place_surfaces(const Points& x, Points& vertices) const;
