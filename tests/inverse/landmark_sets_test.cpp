@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFrames = 9;
+constexpr int kSeenFrames = 9;
 constexpr double kSize = 1.13;  // of the sitter
 constexpr int kWidth_px = 1280, kHeight_px = 720;
 constexpr double kPx_per_m = 2500;
@@ -39,7 +39,7 @@ Vec3 moved(const std::string& id, double share) {
     if (id.starts_with("bm_")) return share * Vec3(0, 3e-3, 0);
     return Vec3::Zero();
 }
-double share_of(int frame) { return std::pow(std::sin(std::numbers::pi * frame / kFrames), 2); }
+double share_of(int frame) { return std::pow(std::sin(std::numbers::pi * frame / kSeenFrames), 2); }
 
 class LandmarkSets : public testing::Test {
   protected:
@@ -56,7 +56,7 @@ class LandmarkSets : public testing::Test {
 
     /// Where a camera sees the sitter's landmark: x to the right, y down, z away, in pixels.
     Vec3 seen(const std::string& id, int frame) const {
-        const double at = frame / static_cast<double>(kFrames);
+        const double at = frame / static_cast<double>(kSeenFrames);
         const Mat3 turn = (Eigen::AngleAxisd(0.25 * std::sin(6 * at), Vec3::UnitY()) *
                            Eigen::AngleAxisd(0.15 * std::sin(4 * at), Vec3::UnitX()) *
                            Eigen::AngleAxisd(0.2 * at, Vec3::UnitZ()))
@@ -91,7 +91,7 @@ class LandmarkSets : public testing::Test {
         for (const auto& [number, at] : points_of(set, 0))
             for (const std::string& name : names(number))
                 if (!name.empty()) out << ", " << name;
-        for (int f = 0; f < kFrames; ++f) {
+        for (int f = 0; f < kSeenFrames; ++f) {
             out << "\n" << f / 30.0 << (cells ? cells(f) : "");
             for (const auto& [number, at] : points_of(set, f)) {
                 const auto columns = names(number);
@@ -109,10 +109,12 @@ class LandmarkSets : public testing::Test {
     /// The largest error of a displacement of the rig's landmarks, m.
     double error_m(const FitTarget& found, const LandmarkSet& set, bool flat = false) const {
         double worst = 0;
-        EXPECT_EQ(found.fields.size(), static_cast<std::size_t>(kFrames));
-        for (int f = 0; f < kFrames; ++f)
+        EXPECT_EQ(found.fields.size(), static_cast<std::size_t>(kSeenFrames));
+        for (int f = 0; f < kSeenFrames; ++f)
             for (const SetPoint& one : set.landmarks) {
                 const std::string id(one.landmark);
+                const auto frame = static_cast<std::size_t>(f);
+                if (!found.sure.empty() && found.sure[frame][points_.vertex(id)] == 0) continue;
                 Vec3 off =
                     found.fields[static_cast<std::size_t>(f)].row(points_.vertex(id)).transpose() -
                     moved(id, share_of(f));
@@ -140,7 +142,7 @@ TEST_F(LandmarkSets, NamesAreLandmarksOfTheRigOnBothSides) {
             for (const int number : one.points) EXPECT_LT(number, set->count);
         }
         for (const std::string& id : names)
-            if (id.ends_with("_l")) EXPECT_TRUE(names.count(id.substr(0, id.size() - 1) + "r"));
+            EXPECT_TRUE(!id.ends_with("_l") || names.count(id.substr(0, id.size() - 1) + "r"));
     }
     EXPECT_GE(mediapipe_points().landmarks.size(), 80u);
     EXPECT_GE(face68_points().landmarks.size(), 40u);
@@ -162,7 +164,7 @@ TEST_F(LandmarkSets, ASitterBeforeACameraMovesTheRigAsItself) {
 TEST_F(LandmarkSets, JsonOfMediaPipeHasSharesOfThePicture) {
     const LandmarkSet& set = mediapipe_points();
     std::ostringstream out;
-    for (int f = 0; f < kFrames; ++f) {
+    for (int f = 0; f < kSeenFrames; ++f) {
         const std::map<int, Vec3> points = points_of(set, f);
         out << R"({"timestampMs": )" << 1e3 * f / 30 << R"(, "faceLandmarks": [[)";
         for (int n = 0; n < set.count; ++n) {
@@ -190,8 +192,8 @@ TEST_F(LandmarkSets, TheTableOfOpenFaceIsReadWithItsConfidence) {
     const FitTarget found = read(
         write("openface.csv", table(set, in_space, "timestamp", ", confidence, success", cells)));
     EXPECT_EQ(found.set, "face68");
-    EXPECT_LT(error_m(found, set), 0.6e-3);
-    ASSERT_EQ(found.sure.size(), static_cast<std::size_t>(kFrames));
+    EXPECT_LT(error_m(found, set), 0.5e-3);
+    ASSERT_EQ(found.sure.size(), static_cast<std::size_t>(kSeenFrames));
     EXPECT_EQ(found.sure[4].maxCoeff(), 0);  // no face
     EXPECT_EQ(found.sure[3].maxCoeff(), 1);
 }
@@ -204,8 +206,8 @@ TEST_F(LandmarkSets, PointsWithoutDepthSayNothingOfIt) {
     };
     const FitTarget found = read(write("flat.csv", table(set, flat, "timestamp")));
     EXPECT_TRUE(found.flat);
-    // A head that turns to the side is another shape in the picture: 17 degrees are up to 3.6 mm here.
-    EXPECT_LT(error_m(found, set, true), 5e-3);
+    // A head that turns is another shape in the picture: 14 degrees to the side and 9 up move it by some millimetres.
+    EXPECT_LT(error_m(found, set, true), 8e-3);
     EXPECT_FALSE(found.sure.empty());
 }
 

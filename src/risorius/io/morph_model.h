@@ -103,7 +103,7 @@ struct MorphModel {
     Json extras;  ///< an object; its keys are written next to targetNames of the first mesh
     /// true: positions and displacements are integer multiples of 1/32767 of the largest of them, other attributes and animated weights
     /// have 16 bits, normals and shares of joints 8, normals of targets stand where they turn by more than four and a half degrees at the
-    /// usual weight (six, of correctives) instead of three, and no zeros lie under sparse accessors. false: floats, for
+    /// usual weight (six, of correctives) instead of four, and no zeros lie under sparse accessors. false: floats, for
     /// readers that do not know KHR_mesh_quantization.
     bool whole_numbers = false;
 };

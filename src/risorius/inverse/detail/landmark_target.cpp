@@ -17,6 +17,7 @@ namespace {
 
 // Landmarks that no muscle moves farther determine the motion of the head
 constexpr double kOnTheSkull_m = 1e-3;
+constexpr int kRounds = 4;  // for the motion of a head
 
 std::vector<Vec3> list_of(const Points& points) {
     std::vector<Vec3> out;
@@ -27,8 +28,8 @@ std::vector<Vec3> list_of(const Points& points) {
 /// Brings frames back to where the head of the sitter is.
 class Head {
   public:
-    Head(const LandmarkRecording& seen, const std::vector<double>& max_m)
-        : seen_(seen), max_m_(max_m) {
+    Head(const LandmarkRecording& seen, const std::vector<double>& max_m, double metres)
+        : seen_(seen), max_m_(max_m), metres_(metres) {
         for (std::size_t i = 0; i < max_m.size(); ++i)
             if (max_m[i] <= kOnTheSkull_m) on_skull_.push_back(static_cast<long>(i));
     }
@@ -36,10 +37,18 @@ class Head {
     Points brought_back(std::size_t frame, const Points& to) const {
         Points out = seen_.at[frame];
         if (!seen_.of_rig()) {
-            const landmarks::Similarity back =
-                landmarks::nearest_similarity(list_of(out), list_of(to), weights(frame));
-            for (long i = 0; i < out.rows(); ++i)
-                out.row(i) = back(Vec3(out.row(i).transpose())).transpose();
+            std::vector<double> may_move = max_m_;
+            for (int round = 0; round < kRounds; ++round) {
+                const landmarks::Similarity back = landmarks::nearest_similarity(
+                    list_of(seen_.at[frame]), list_of(to), weights(frame, may_move));
+                for (long i = 0; i < out.rows(); ++i)
+                    out.row(i) = back(Vec3(seen_.at[frame].row(i).transpose())).transpose();
+                for (std::size_t i = 0; i < may_move.size(); ++i) {
+                    const auto row = static_cast<long>(i);
+                    may_move[i] =
+                        std::min(max_m_[i], metres_ * (out.row(row) - to.row(row)).norm());
+                }
+            }
         } else if (on_skull_.size() >= 3) {
             const Rigid back =
                 nearest_motion(out(on_skull_, Eigen::all), to(on_skull_, Eigen::all));
@@ -50,12 +59,12 @@ class Head {
     }
 
   private:
-    std::vector<double> weights(std::size_t frame) const {
+    std::vector<double> weights(std::size_t frame, const std::vector<double>& may_move) const {
         std::vector<double> out;
         double sum = 0;
-        for (std::size_t i = 0; i < max_m_.size(); ++i) {
+        for (std::size_t i = 0; i < may_move.size(); ++i) {
             out.push_back(seen_.confidence(static_cast<long>(i), static_cast<long>(frame)) /
-                          (max_m_[i] * max_m_[i] + kOnTheSkull_m * kOnTheSkull_m));
+                          (may_move[i] * may_move[i] + kOnTheSkull_m * kOnTheSkull_m));
             sum += out.back();
         }
         // A face that was not seen stays where it is.
@@ -65,6 +74,7 @@ class Head {
 
     const LandmarkRecording& seen_;
     const std::vector<double>& max_m_;
+    double metres_;  ///< per unit of the recording
     std::vector<long> on_skull_;
 };
 
@@ -139,8 +149,10 @@ FitTarget given_landmarks(const std::filesystem::path& file, const LandmarkOptio
             std::find(all.begin(), all.end(), seen.ids[i]) - all.begin())]);
         at_rest.row(static_cast<long>(i)) = points.at(seen.ids[i], rest).transpose();
     }
-    const Head head(seen, own_max_m);
-    const Points sitter = sitter_of(seen, head, neutral_frames(seen, options));
+    const std::vector<std::size_t> neutral = neutral_frames(seen, options);
+    const Head head(seen, own_max_m,
+                    size_of(seen, seen.at[neutral[0]], at_rest, file.string()).scale);
+    const Points sitter = sitter_of(seen, head, neutral);
     const landmarks::Similarity size = size_of(seen, sitter, at_rest, file.string());
     FitTarget out;
     out.notes = seen.notes;

@@ -5,7 +5,8 @@
 ///
 ///   sitter    the mean of the frames in a time in which the face is neutral
 ///   head      the motion that brings each frame nearest to the sitter: of landmarks of the rig, rigid, by those that muscles move by
-///             less than 1 mm; of points of a set, with a scale, by all of them, each with the weight c / (m^2 + (1 mm)^2)
+///             less than 1 mm; of points of a set, with a scale, by all of them, each with the weight c / (m^2 + (1 mm)^2), and again
+///             with the distance that is left for m where that is less
 ///   size      the turn and scale that bring the sitter nearest to the rig at rest, of points of a set: of a face with another size,
 ///             displacements change in proportion
 ///

@@ -16,9 +16,8 @@ namespace {
 
 constexpr double kSmallPrice = 1e-5;   // of a weight of 1, so that units that do nothing rest
 constexpr double kLeastWeight = 0.03;  // what stays below is left out
-constexpr double kKeep = 1e-5;     // of squared differences from the weights of a frame, for keys
-constexpr double kGain = 0.9;      // of what was left; with less a search ends
-constexpr double kMuscleCost = 4;  // relative to a unit
+constexpr double kKeep = 1e-5;  // of squared differences from the weights of a frame, for keys
+constexpr double kGain = 0.9;   // of what was left; with less a search ends
 constexpr double kNearEnough =
     2.5;  // a choice with less left, relative to the least gain of a unit, is not made again
 constexpr int kCorrections = 6, kCloseChoices = 2, kChoices = 3, kRounds = 3, kTangents = 4,
@@ -55,8 +54,7 @@ class UnitSolver {
         active_.assign(static_cast<std::size_t>(n), false);
         price_ = Eigen::VectorXd::Zero(n);
         for (const UnitCandidate& one : bench.sources().candidates())
-            for (const std::size_t s : one.sources)
-                price_[static_cast<long>(s)] = one.is_unit ? 1 : kMuscleCost;
+            for (const std::size_t s : one.sources) price_[static_cast<long>(s)] = one.cost;
         weight_ = Eigen::MatrixXd::Zero(n, target_.cols());
     }
 
@@ -183,11 +181,9 @@ class UnitSolver {
         const auto choose = [&] {
             // What is known of the rig near the first choice may tell a better one.
             for (int round = 0; round < kChoices; ++round) {
-                const UnitChoice choice = choose_units(tangent(frame, w), goal, bench_.sources(),
-                                                       {.most = options_.most,
-                                                        .unit_cost = cost,
-                                                        .muscle_cost = kMuscleCost * cost,
-                                                        .price = kSmallPrice});
+                const UnitChoice choice =
+                    choose_units(tangent(frame, w), goal, bench_.sources(),
+                                 {.most = options_.most, .unit_cost = cost, .price = kSmallPrice});
                 const bool same = choice.active == active_;
                 active_ = choice.active;
                 w = fitted(frame, choice.weight);

@@ -7,9 +7,8 @@ namespace risorius::io::detail {
 
 namespace {
 
-// Change of a normal at the usual weight: three degrees are not visible, four and a half hardly; of correctives, whose weights are
-// smaller in most frames, six
-constexpr double kNoTurn = 0.052, kNoTurnCompact = 0.08, kNoTurnOfCorrective = 0.105;
+// Change of a normal at the usual weight: four degrees are hardly visible; of correctives, whose weights are smaller in most frames, six
+constexpr double kNoTurn = 0.07, kNoTurnCompact = 0.08, kNoTurnOfCorrective = 0.105;
 
 // A part is cut in two where at least this share of its corners has normals that rest.
 constexpr double kWorthACut = 0.1;
