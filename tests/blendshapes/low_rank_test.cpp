@@ -192,7 +192,7 @@ TEST(LowRank, KeepsThoseThatMoveMostOfBothSidesWhenThereIsRoomForFew) {
     double weakest = 1;
     for (const auto& one : few.correctives)
         weakest = std::min(weakest, one.shape.delta.rowwise().norm().maxCoeff());
-    EXPECT_NEAR(weakest, 3e-3, 1e-4);
+    EXPECT_NEAR(weakest, 3e-3 * (1 + 0.1 * 17), 1e-9);  // of the second largest
 }
 
 TEST(LowRank, SaysTheSameEveryTime) {
