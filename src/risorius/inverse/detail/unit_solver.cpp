@@ -17,10 +17,10 @@ namespace {
 constexpr double kSmallPrice = 1e-5;   // of a weight of 1, so that units that do nothing rest
 constexpr double kLeastWeight = 0.03;  // what stays below is left out
 constexpr double kKeep = 1e-5;  // of squared differences from the weights of a frame, for keys
-constexpr double kGain = 0.9;   // of what was left; with less a search ends
+constexpr double kGain = 0.8;   // of what was left; with more a search ends
 constexpr double kNearEnough =
     2.5;  // a choice with less left, relative to the least gain of a unit, is not made again
-constexpr int kCorrections = 6, kCloseChoices = 2, kChoices = 3, kRounds = 3, kTangents = 4,
+constexpr int kCorrections = 4, kCloseChoices = 2, kChoices = 3, kRounds = 3, kTangents = 4,
               kChecks = 2, kSweeps = 3;
 constexpr double kSmooth =
     1e-4;  // of squared differences from the mean of the neighbours of a frame
