@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/io/detail/target_normals.h"
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace risorius::io::detail {
