@@ -107,8 +107,7 @@ TEST(OneOfEach, KeepsThoseThatMatterMostUnderTheirNames) {
     fields[0].driver.name = "a*b";
     fields[1].driver.name = "a*c";
     fields[2].driver.name = "b*c";
-    const LowRank made =
-        one_of_each(fields, {}, kRest, kArea, {.fade = kNoFade, .most_of_a_side = 1});
+    const LowRank made = one_of_each(fields, {}, kRest, kArea, {.fade = kNoFade, .most = 2});
     ASSERT_EQ(made.correctives.size(), 2u);
     EXPECT_EQ(made.drivers.size(), 2u);
     EXPECT_EQ(made.correctives[0].name, "a_c");
@@ -180,6 +179,20 @@ TEST(LowRank, KeepsWhatMattersMostWhenThereIsRoomForFew) {
     EXPECT_EQ(keeps(), 0);
     fields[1].use = 100 * fields[0].use;
     EXPECT_EQ(keeps(), 5);
+}
+
+TEST(LowRank, KeepsThoseThatMoveMostOfBothSidesWhenThereIsRoomForFew) {
+    // Four disjoint fields, those with odd vertices on the other side: each is a corrective of its own.
+    std::vector<DriverField> fields{driver({0, 1}, 0, 4, 2e-3), driver({0, 2}, 4, 4, 1e-3),
+                                    driver({1, 2}, 10, 4, 4e-3), driver({0, 3}, 14, 4, 3e-3)};
+    const LowRank all = low_rank(fields, {}, kRest, kArea, {.fade = kNoFade}),
+                  few = low_rank(fields, {}, kRest, kArea, {.fade = kNoFade, .most = 2});
+    ASSERT_EQ(all.correctives.size(), 4u);
+    ASSERT_EQ(few.correctives.size(), 2u);
+    double weakest = 1;
+    for (const auto& one : few.correctives)
+        weakest = std::min(weakest, one.shape.delta.rowwise().norm().maxCoeff());
+    EXPECT_NEAR(weakest, 3e-3 * (1 + 0.1 * 17), 1e-9);  // of the second largest
 }
 
 TEST(LowRank, SaysTheSameEveryTime) {

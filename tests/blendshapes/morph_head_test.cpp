@@ -114,6 +114,7 @@ TEST_F(MorphHead, JointsTurnItAsTheSimulationDoes) {
     }
     EXPECT_LT(worst, 1.5e-3);
     EXPECT_LT(shoulders, 1e-5);
+    RecordProperty("neck_um", std::to_string(1e6 * worst));
 }
 
 TEST_F(MorphHead, EyesTurnAboutTheirCentres) {
@@ -127,13 +128,23 @@ TEST_F(MorphHead, EyesTurnAboutTheirCentres) {
     EXPECT_LT((centre - face_->head().eyes[0].centre).norm(), 1e-12);
     EXPECT_FALSE(model_->nodes[static_cast<std::size_t>(node("EyeLeft"))].animate_shapes);
     const Points posed = face_->surfaces().posed(face_->head().vertices, glance).vertices;
+    double
+        front = 0,
+        pupil =
+            0;  // the farthest vertex forward at rest, and how far it is from the pivot when turned
     for (const io::MorphPart& part : model_->parts)
         if (part.node == node("EyeLeft"))
             for (const int v : part.triangles.reshaped()) {
-                const Vec3 from = face_->head().vertices.row(v).transpose() - centre;
-                EXPECT_LT((centre + motions[0].turn[1] * from - posed.row(v).transpose()).norm(),
-                          1e-9);
+                const Vec3 from = face_->head().vertices.row(v).transpose() - centre,
+                           to = motions[0].turn[1] * from;
+                EXPECT_LT((centre + to - posed.row(v).transpose()).norm(), 1e-9);
+                if (const double along = from.dot(face_->head().eyes[0].forward); along > front) {
+                    front = along;
+                    pupil = to.norm();
+                }
             }
+    // As at rest: shapes alone, which are straight, would leave 11.87 mm of it.
+    EXPECT_NEAR(pupil, 12.44e-3, 0.01e-3);
 }
 
 TEST_F(MorphHead, EyesTurnByShapesOrByNodesAsAsked) {

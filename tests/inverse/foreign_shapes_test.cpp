@@ -36,6 +36,7 @@ std::string other_program(const rig::Head& head, bool numbered, bool whole_numbe
     for (int half = 0; half < 2; ++half) {
         io::MorphPart& part = model.parts.emplace_back();
         part.name = half == 0 ? "skin" : "lips";
+        part.normals_turn = false;  // one primitive each
         part.triangles.resize(18, 3);
         for (int f = 0; f < 18; ++f)
             part.triangles.row(f) << 20 * half + f, 20 * half + f + 1, 20 * half + f + 2;

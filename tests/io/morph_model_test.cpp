@@ -94,6 +94,57 @@ TEST(MorphModel, ReadsBackWhatWasWritten) {
     EXPECT_EQ(back.animations[0].weights, model.animations[0].weights);
 }
 
+TEST(MorphModel, NormalsOfTargetsStandOnWhatTurnsAlone) {
+    // A strip of twelve quads; the shapes move all of it, but bend only its left end. three.js would keep normals for all of it.
+    constexpr int kQuads = 12;
+    MorphModel model;
+    model.name = "strip";
+    model.vertices.resize(2 * (kQuads + 1), 3);
+    MorphPart skin;
+    skin.name = "skin";
+    skin.triangles.resize(2 * kQuads, 3);
+    std::vector<int> all;
+    Points up = Points::Zero(2 * (kQuads + 1), 3), aside = up;
+    for (int i = 0; i <= kQuads; ++i)
+        for (int k = 0; k < 2; ++k) {
+            model.vertices.row(2 * i + k) << i, k, 0;
+            up(2 * i + k, 2) = i == 0 ? 1.5 : 0.5;
+            aside(2 * i + k, 0) = 0.25;
+            all.push_back(2 * i + k);
+        }
+    for (int i = 0; i < kQuads; ++i) {
+        skin.triangles.row(2 * i) << 2 * i, 2 * i + 2, 2 * i + 3;
+        skin.triangles.row(2 * i + 1) << 2 * i, 2 * i + 3, 2 * i + 1;
+    }
+    model.parts = {skin};
+    model.targets = {{"up", all, up}, {"aside", all, aside}};
+    const Json json = chunks(glb_bytes(model)).first;
+    const Json& primitives = json["meshes"][0]["primitives"];
+    ASSERT_EQ(primitives.size(), 2u);
+    EXPECT_EQ(primitives[0]["material"], primitives[1]["material"]);
+    for (const Json& target : primitives[0]["targets"])
+        EXPECT_TRUE(target.contains("POSITION") && target.contains("NORMAL"));
+    for (const Json& target : primitives[1]["targets"])
+        EXPECT_TRUE(target.contains("POSITION") && !target.contains("NORMAL"));
+    const auto count = [&](const Json& primitive) {
+        return json["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()]["count"]
+            .get<int>();
+    };
+    // Vertices 0 to 3 turn. The triangles that have them reach as far as vertex 5.
+    EXPECT_EQ(count(primitives[0]), 6);
+    EXPECT_EQ(count(primitives[1]), 2 * (kQuads + 1) - 4);
+    const TemporaryFolder folder;
+    std::ofstream(folder.path() / "strip.glb", std::ios::binary) << glb_bytes(model);
+    const MorphModel back = read_glb(folder.path() / "strip.glb");
+    EXPECT_EQ(back.vertices, model.vertices);
+    for (std::size_t t = 0; t < 2; ++t) EXPECT_EQ(back.targets[t].delta, model.targets[t].delta);
+
+    model.parts[0].normals_turn = false;
+    const Json plain = chunks(glb_bytes(model)).first;
+    ASSERT_EQ(plain["meshes"][0]["primitives"].size(), 1u);
+    EXPECT_FALSE(plain["meshes"][0]["primitives"][0]["targets"][0].contains("NORMAL"));
+}
+
 TEST(MorphModel, IsReadWithPicturesInIt) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "quads.glb";

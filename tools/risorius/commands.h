@@ -4,7 +4,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <exception>
+#include <string>
 
 #include "tools/risorius/terminal.h"
 
@@ -31,6 +33,9 @@ void add_batch(CLI::App& app);
 void add_reverse(CLI::App& app);
 void add_studio(CLI::App& app);
 void add_study(CLI::App& app);
+
+/// Begin and end in seconds from the value of an option, as "0-0.5". Throws Error.
+std::array<double, 2> read_span(const std::string& option, const std::string& text);
 
 /// Thrown for wrong input after the message has been printed.
 class SaidAlready : public std::exception {};

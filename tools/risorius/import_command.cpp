@@ -12,6 +12,15 @@
 
 namespace risorius::cli {
 
+std::array<double, 2> read_span(const std::string& option, const std::string& text) {
+    std::array<double, 2> out{};
+    char end = 0;
+    if (std::sscanf(text.c_str(), "%lf-%lf%c", &out[0], &out[1], &end) != 2 ||
+        !std::isfinite(out[0]) || !std::isfinite(out[1]))
+        throw Error(option, "begin and end in seconds, as 0-0.5", in_quotes(text));
+    return out;
+}
+
 namespace {
 
 struct ImportArguments {
@@ -19,16 +28,6 @@ struct ImportArguments {
     motion::ImportOptions options;
     std::string neutral, motion = "quasi_static";
 };
-
-/// "0-0.5": begin and end in seconds.
-std::array<double, 2> read_span(const std::string& text) {
-    std::array<double, 2> out{};
-    char end = 0;
-    if (std::sscanf(text.c_str(), "%lf-%lf%c", &out[0], &out[1], &end) != 2 ||
-        !std::isfinite(out[0]) || !std::isfinite(out[1]))
-        throw Error("import --neutral", "begin and end in seconds, as 0-0.5", in_quotes(text));
-    return out;
-}
 
 void print(const motion::ImportReport& report) {
     std::printf("%s: %s, %d samples in %.2f s, %.4g a second\n", report.file.c_str(),
@@ -53,7 +52,8 @@ void print(const motion::ImportReport& report) {
 void run(ImportArguments& arguments) {
     motion::ImportOptions& options = arguments.options;
     if (options.rig.empty()) options.rig = data_folder() / "rigs/adult/rig.json";
-    if (!arguments.neutral.empty()) options.neutral_s = read_span(arguments.neutral);
+    if (!arguments.neutral.empty())
+        options.neutral_s = read_span("import --neutral", arguments.neutral);
     options.motion =
         arguments.motion == "dynamic" ? track::Motion::kDynamic : track::Motion::kQuasiStatic;
     const motion::ImportReport report = motion::import_motion(options);

@@ -15,7 +15,19 @@ namespace {
 struct SolveArguments {
     Common common;
     inverse::SolveOptions options;
+    std::string neutral, picture;
 };
+
+// Width and height, as 1280x720.
+std::array<int, 2> read_picture(const std::string& text) {
+    std::array<int, 2> out{};
+    char rest = 0;
+    constexpr int kMost_px = 100000;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &out[0], &out[1], &rest) != 2 || out[0] < 1 ||
+        out[1] < 1 || out[0] > kMost_px || out[1] > kMost_px)
+        throw Error("solve --picture", "width and height in pixels, as 1280x720", in_quotes(text));
+    return out;
+}
 
 void print(const inverse::SolveReport& report, const inverse::SolveOptions& options) {
     std::printf("%s: %zu %s of %s, %d points\n", report.rig.c_str(), report.solved.size(),
@@ -33,6 +45,9 @@ void print(const inverse::SolveReport& report, const inverse::SolveOptions& opti
 
 void run(SolveArguments& arguments) {
     check_threads(arguments.options.threads);
+    if (!arguments.neutral.empty())
+        arguments.options.neutral_s = read_span("solve --neutral", arguments.neutral);
+    if (!arguments.picture.empty()) arguments.options.picture_px = read_picture(arguments.picture);
     inverse::SolveReport report;
     {
         ProgressBar bar(arguments.common);
@@ -83,7 +98,14 @@ void add_solve(CLI::App& app) {
     command->add_option(
         "--landmarks", options.landmarks,
         "Instead of --shapes: a table with the columns time_s and ID.x_mm, ID.y_mm, ID.z_mm of "
-        "some landmarks, as from render --landmarks. The first row must show the neutral face");
+        "some landmarks, as from render --landmarks; or points of another face: a table with "
+        "mediapipe_N.x, .y, .z or face68_N.x, .y, .z, that of OpenFace, or JSON of MediaPipe "
+        "FaceLandmarker (docs/howto/motion.md). The first row must show the neutral face");
+    command->add_option("--neutral", arguments->neutral,
+                        "Of --landmarks: a time in which the face is neutral, in seconds, as "
+                        "0-0.5: its mean stands for the first row");
+    command->add_option("--picture", arguments->picture,
+                        "Of MediaPipe's JSON: width and height of the picture, as 1280x720");
     command->add_option(
         "--as", options.as,
         "What to find: \"units\" (few action units with few keys, single muscles only "

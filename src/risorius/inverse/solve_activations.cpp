@@ -17,6 +17,7 @@
 #include "risorius/face/face.h"
 #include "risorius/face/statics.h"
 #include "risorius/inverse/detail/fit_target.h"
+#include "risorius/inverse/detail/landmark_target.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/atomic_folder.h"
 #include "risorius/rig/expression_drive.h"
@@ -143,8 +144,8 @@ class Solver {
         std::vector<SolvedDrive> out(given_.fields.size());
         const std::unique_ptr<face::Face> face = at_rest();
         ActivationFitOptions fit = usual(kFrameRounds, monitor);
-        for (const Points& field : given_.fields)
-            fit.size = std::max(fit.size, squares(field, given_.weight));
+        for (std::size_t t = 0; t < out.size(); ++t)
+            fit.size = std::max(fit.size, squares(given_.fields[t], weight_of(t)));
         if (!(fit.size > 0))
             throw Error(options_.landmarks.string(), "landmarks that move", "none that does");
         track::Drive last = nothing(files_.rig.channels());
@@ -192,10 +193,15 @@ class Solver {
         out.name = given_.names[i];
         if (!given_.times_s.empty()) out.time_s = given_.times_s[i];
         out.drive = begin;
-        if (squares(given_.fields[i], given_.weight) > 0 || fit.size > 0)
-            out.drive =
-                fit_activations(face, unknowns_, given_.fields[i], given_.weight, begin, fit);
-        measure(face, given_.fields[i], given_.weight, out);
+        const Eigen::VectorXd weight = weight_of(i);
+        if (weight.sum() > 0 && (squares(given_.fields[i], weight) > 0 || fit.size > 0))
+            out.drive = fit_activations(face, unknowns_, given_.fields[i], weight, begin, fit);
+        measure(face, given_.fields[i], weight.sum() > 0 ? weight : given_.weight, out);
+    }
+    /// Of the vertices in a shape or frame.
+    Eigen::VectorXd weight_of(std::size_t i) const {
+        if (given_.sure.empty()) return given_.weight;
+        return given_.weight.cwiseProduct(given_.sure[i]);
     }
 
     const SolveOptions& options_;
@@ -284,6 +290,10 @@ bool solves_units(const SolveOptions& options) {
     return out;
 }
 
+LandmarkOptions landmark_options(const SolveOptions& options) {
+    return {.fps = options.fps, .neutral_s = options.neutral_s, .picture_px = options.picture_px};
+}
+
 /// Every landmark of the rig by the vertex that it rides on, and the largest motion of each by any of the ways.
 std::vector<double> largest_motions(const scene::LandmarkPoints& points,
                                     const std::vector<int>& vertices, const Eigen::MatrixXd& ways) {
@@ -313,8 +323,8 @@ FitTarget solve_as_units(face::FaceTeam& team, const scene::RigFiles& files,
     const UnitBench bench(team, sources, vertices);
     std::vector<UnitState> known = bench.known(files, options.quality, monitor.subrange(0, 0.3));
     const FitTarget given =
-        given_landmarks(options.landmarks, options.fps, points,
-                        largest_motions(points, vertices, known[0].way), head.vertices.rows());
+        given_landmarks(options.landmarks, landmark_options(options), points,
+                        largest_motions(points, vertices, known[0].way), head.vertices);
     UnitSolution found = solve_units(bench, given, std::move(known), {}, monitor.subrange(0.3, 1));
     if (found.curves.empty())
         throw Error(options.landmarks.string(), "landmarks that move as an action unit does",
@@ -353,8 +363,13 @@ FitTarget landmarks_for_muscles(face::Face& face, const scene::RigFiles& files,
         for (const Points& way : ways) max = std::max(max, way.row(points.vertex(id)).norm());
         max_m.push_back(max);
     }
-    return given_landmarks(options.landmarks, options.fps, points, max_m,
-                           face.head().vertices.rows());
+    FitTarget given = given_landmarks(options.landmarks, landmark_options(options), points, max_m,
+                                      face.head().vertices);
+    if (given.flat)
+        throw Error(options.landmarks.string(),
+                    "points with a depth, or " + option_name("as") + " \"units\"",
+                    "points without one");
+    return given;
 }
 
 }  // namespace
@@ -387,6 +402,8 @@ Json SolveReport::json() const {
                              {"rms_mm", 1e3 * rms_m()},
                              {"solved", list}});
     for (const UnitCurve& curve : curves) json["curves"][curve.channel] = curve.keys.size();
+    if (!set.empty()) json["set"] = set;
+    if (sitter_scale) json["sitter_scale"] = *sitter_scale;
     if (!notes.empty()) json["notes"] = notes;
     return json;
 }
@@ -407,6 +424,9 @@ SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor
           std::pair{option_name("temporal_weight"), options.temporal_weight}})
         if (!(value >= 0 && value <= 1e3))
             throw Error(name, "a number in [0, 1000]", format_number(value));
+    if (options.landmarks.empty() && (options.neutral_s || options.picture_px[0] > 0))
+        throw Error(option_name(options.neutral_s ? "neutral" : "picture"),
+                    option_name("landmarks") + ", which it is about", "none");
     if (options.fps < 1 || options.fps > 240)
         throw Error(option_name("fps"), "an integer in [1, 240]", std::to_string(options.fps));
     const bool as_units = solves_units(options);
@@ -439,6 +459,8 @@ SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor
     report.points = static_cast<int>((given.weight.array() > 0).count());
     report.channels = files.rig.channels();
     report.notes = given.notes;
+    report.set = given.set;
+    if (!given.set.empty() && given.set != "rig") report.sitter_scale = given.sitter_scale;
     if (!as_units) {
         const std::vector<ActivationUnknown> unknowns =
             unknowns_of(files, face.head(), given.weight);

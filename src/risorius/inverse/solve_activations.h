@@ -16,7 +16,9 @@
 /// A sequence may be solved as action units instead, see detail/unit_solver.h: few curves with few keys.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,8 +37,12 @@ struct SolveOptions {
     std::filesystem::path shapes = {};
     /// Copies of the rig's mesh with displaced vertices
     std::vector<std::filesystem::path> meshes = {};
-    std::filesystem::path landmarks = {};  ///< a table: time_s, ID.x_mm, ID.y_mm, ID.z_mm, ...
-    std::vector<std::string> only = {};    ///< names in `shapes`; empty: all
+    /// Landmarks over time, see detail/landmark_recording.h
+    std::filesystem::path landmarks = {};
+    /// Begin and end of a time in which the face is neutral, s; none: the first row
+    std::optional<std::array<double, 2>> neutral_s = {};
+    std::array<int, 2> picture_px = {};  ///< size of the picture of MediaPipe's JSON; 0: not known
+    std::vector<std::string> only = {};  ///< names in `shapes`; empty: all
     std::string quality = "preview";
     double l1_weight = 2e-4, l2_weight = 2e-4, temporal_weight = 2e-2;
     /// "units" (sequences only) or "muscles"; empty: units for sequences, else muscles
@@ -69,6 +75,9 @@ struct SolveReport {
     std::vector<SolvedDrive> solved;
     std::vector<UnitCurve> curves;   ///< of a sequence that was solved as units
     std::vector<std::string> notes;  ///< values of landmarks that were missing and are bridged
+    std::string set;  ///< of landmarks: "rig", or the set of points that they are from
+    std::optional<double>
+        sitter_scale;  ///< m of the rig per unit of the sitter, of points of a set
 
     double rms_m() const;  ///< RMS over all shapes or frames, equally weighted
     Json json() const;

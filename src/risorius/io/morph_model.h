@@ -6,8 +6,8 @@
 /// and every part is a primitive of it, with a material and only the vertices it needs, in the order of the mesh; the attribute
 /// _VERTEX has their indices in the mesh. Vertices lie around the place of their node.
 ///
-/// Blend shapes are morph targets of positions and normals. They are stored where they are not zero (sparse accessors), and
-/// their names are in the meshes' extras.targetNames. The first mesh has all of them, the others those that move them. On
+/// Blend shapes are morph targets of positions and, on what they turn, of normals: a part whose normals rest in places is two primitives
+/// with one material. Targets are stored where they are not zero (sparse accessors), and their names are in the meshes' extras.targetNames. The first mesh has all of them, the others those that move them. On
 /// request, positions are 16-bit integers, which the scale of the node converts to metres (KHR_mesh_quantization). They are not
 /// "normalized" integers, because three.js from r145 to r168 reads those wrongly in sparse accessors. Normals are floats.
 ///
@@ -16,6 +16,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,7 @@ struct MorphPart {
     bool see_both_sides = false;
     int picture = -1;           ///< index in MorphModel::pictures: multiplies the colour; -1: none
     bool picture_cuts = false;  ///< the alpha of the picture is the opacity
+    bool normals_turn = true;   ///< false: targets have no normals, since nobody sees them
 };
 
 /// A node of the hierarchy. It is a joint when the skin names it.
@@ -102,7 +104,7 @@ struct MorphModel {
     Json extras;  ///< an object; its keys are written next to targetNames of the first mesh
     /// true: positions and displacements are integer multiples of 1/32767 of the largest of them, other attributes and animated weights
     /// have 16 bits, normals and shares of joints 8, normals of targets stand where they turn by more than four and a half degrees at the
-    /// usual weight (six, of correctives) instead of three, and no zeros lie under sparse accessors. false: floats, for
+    /// usual weight (six, of correctives) instead of four, and no zeros lie under sparse accessors. false: floats, for
     /// readers that do not know KHR_mesh_quantization.
     bool whole_numbers = false;
 };

@@ -11,48 +11,21 @@
 #include "risorius/core/error.h"
 #include "risorius/io/detail/gltf_packer.h"
 #include "risorius/io/detail/part_vertices.h"
+#include "risorius/io/detail/target_normals.h"
 #include "risorius/io/morph_model.h"
 
 namespace risorius::io {
 
 namespace {
 
-// Change of a normal at the usual weight: three degrees are not visible, four and a half hardly; of correctives, whose weights are
-// smaller in most frames, six
-constexpr double kNoTurn = 0.052, kNoTurnCompact = 0.08, kNoTurnOfCorrective = 0.105;
 constexpr double kMaxWhole = 32767, kMaxShare = 65535;  // of 16 bits, with and without a sign
 constexpr double kMaxByte = 127;                        // of 8 bits, with a sign
 
 using detail::Floats;
 using detail::PartVertices;
+using detail::TargetFields;
 using Packer = detail::GltfPacker;
 using detail::value_of;
-
-Points vertex_normals(const MorphModel& model, const Points& vertices) {
-    Points normals = Points::Zero(vertices.rows(), 3);
-    const auto shared = [&](long v) {
-        return model.stands_for.empty() ? v : model.stands_for[static_cast<std::size_t>(v)];
-    };
-    for (const MorphPart& part : model.parts)
-        for (long f = 0; f < part.triangles.rows(); ++f) {
-            const auto corner = [&](int k) -> Vec3 {
-                return vertices.row(part.triangles(f, k)).transpose();
-            };
-            const Vec3 twice_area = (corner(1) - corner(0)).cross(corner(2) - corner(0));
-            for (int k = 0; k < 3; ++k)
-                normals.row(shared(part.triangles(f, k))) += twice_area.transpose();
-        }
-    for (long v = 0; v < normals.rows(); ++v)
-        if (shared(v) != v) normals.row(v) = normals.row(shared(v));
-    for (long v = 0; v < normals.rows(); ++v) {
-        const double length = normals.row(v).norm();
-        if (length > 1e-20)
-            normals.row(v) /= length;
-        else
-            normals.row(v) = Vec3::UnitZ().transpose();
-    }
-    return normals;
-}
 
 float linear_of_srgb(double value) {
     return static_cast<float>(value <= 0.04045 ? value / 12.92
@@ -67,22 +40,6 @@ std::vector<T> whole(const Floats& values, double unit) {
         out.push_back(static_cast<T>(std::lround(static_cast<double>(value) / unit)));
     return out;
 }
-
-/// Dense fields of a target, indexed by vertex.
-struct TargetFields {
-    Points delta, turn;
-    TargetFields(const MorphModel& model, const MorphTarget& target, const Points& normals) {
-        delta = Points::Zero(model.vertices.rows(), 3);
-        for (std::size_t i = 0; i < target.vertex.size(); ++i)
-            delta.row(target.vertex[i]) = target.delta.row(static_cast<long>(i));
-        turn = vertex_normals(model, model.vertices + delta) - normals;
-        const double least = !model.whole_numbers       ? kNoTurn
-                             : target.usual_weight == 1 ? kNoTurnCompact
-                                                        : kNoTurnOfCorrective;
-        for (long v = 0; v < turn.rows(); ++v)
-            if (target.usual_weight * turn.row(v).norm() < least) turn.row(v).setZero();
-    }
-};
 
 // The morph targets of a part. Targets that do not move it share one accessor.
 class PartTargets {
@@ -164,7 +121,8 @@ class GlbWriter {
                 largest = std::max(largest, place_in(part, v).cwiseAbs().maxCoeff());
         // Positions use the same unit, and the scale of the node converts both to metres.
         unit_ = model.whole_numbers ? largest / kMaxWhole : 0;
-        normals_ = vertex_normals(model, model.vertices);
+        normals_ = detail::vertex_normals(model, model.vertices);
+        parts_ = detail::parts_by_turn(model, normals_);
     }
 
     std::string bytes() {
@@ -173,7 +131,7 @@ class GlbWriter {
         if (unit_ > 0) out_.extensionsUsed = out_.extensionsRequired = {"KHR_mesh_quantization"};
         add_nodes();
         add_pictures();
-        for (const MorphPart& part : model_.parts) vertices_.emplace_back(part);
+        for (const detail::TurningPart& one : parts_) vertices_.emplace_back(one.part);
         for (std::size_t n = 0; n < nodes_.size(); ++n) add_mesh(static_cast<int>(n));
         add_targets();
         add_skin();
@@ -272,8 +230,8 @@ class GlbWriter {
         std::vector<char> is_here(static_cast<std::size_t>(model_.vertices.rows()), 0);
         tinygltf::Mesh mesh;
         mesh.name = nodes_[static_cast<std::size_t>(node)].name;
-        for (std::size_t p = 0; p < model_.parts.size(); ++p) {
-            if (model_.parts[p].node != node) continue;
+        for (std::size_t p = 0; p < parts_.size(); ++p) {
+            if (parts_[p].part.node != node) continue;
             made.parts.push_back(p);
             for (const int v : vertices_[p].vertex) is_here[static_cast<std::size_t>(v)] = 1;
             mesh.primitives.push_back(primitive(p));
@@ -295,7 +253,7 @@ class GlbWriter {
     }
 
     tinygltf::Primitive primitive(std::size_t p) {
-        const MorphPart& part = model_.parts[p];
+        const MorphPart& part = parts_[p].part;
         const PartVertices& own = vertices_[p];
         tinygltf::Primitive primitive;
         primitive.mode = TINYGLTF_MODE_TRIANGLES;
@@ -377,9 +335,9 @@ class GlbWriter {
                 if (!std::binary_search(mesh.targets.begin(), mesh.targets.end(), t)) continue;
                 for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
                     PartTargets& part = targets[mesh.parts[i]];
-                    out_.meshes[m].primitives[i].targets.push_back(
-                        {{"POSITION", part.positions(fields.delta)},
-                         {"NORMAL", part.normals(fields.turn)}});
+                    auto& made = out_.meshes[m].primitives[i].targets.emplace_back();
+                    made["POSITION"] = part.positions(fields.delta);
+                    if (parts_[mesh.parts[i]].turns) made["NORMAL"] = part.normals(fields.turn);
                 }
             }
         }
@@ -460,6 +418,7 @@ class GlbWriter {
     std::vector<MorphNode> nodes_;
     double unit_ = 0;  ///< of positions, m; 0: they are floats in metres
     Points normals_;
+    std::vector<detail::TurningPart> parts_;  ///< as they are written, one primitive each
     tinygltf::Model out_;
     Packer packer_;
     std::vector<PartVertices> vertices_;  ///< by part

@@ -164,6 +164,12 @@ std::vector<double> Recording::samples(int column) const {
     return samples;
 }
 
+std::vector<double> Recording::samples_or_nan(int column) const {
+    std::vector<double> samples;
+    for (const Line& line : lines_) samples.push_back(number(line, column, true));
+    return samples;
+}
+
 Recording::Bridged Recording::bridged_samples(int column,
                                               const std::vector<double>& times_s) const {
     Bridged out;

@@ -29,6 +29,9 @@ class Recording {
     /// Throws Error that names file, line and column of a value that is not a finite number.
     std::vector<double> samples(int column) const;
 
+    /// The same, with NaN for values that are missing: empty cells, "n/a", "NA" and "NaN".
+    std::vector<double> samples_or_nan(int column) const;
+
     /// Samples of a column in which values may be missing: empty cells, "n/a", "NA" and "NaN".
     struct Bridged {
         std::vector<double> samples;

@@ -228,6 +228,23 @@ void fit_again(std::vector<SparseShape>& shapes, const std::vector<Points>& whol
     }
 }
 
+/// Which correctives move the skin the most: indices of `most` at most, in their order.
+std::vector<std::size_t> worth_most(const std::vector<Points>& whole, const Wanted& wanted,
+                                    const Eigen::VectorXd& area, int most) {
+    std::vector<std::pair<double, std::size_t>> by_worth;
+    for (std::size_t c = 0; c < whole.size(); ++c)
+        by_worth.emplace_back(-wanted.weights.col(static_cast<long>(c)).squaredNorm() *
+                                  area.dot(whole[c].rowwise().squaredNorm()),
+                              c);
+    std::stable_sort(by_worth.begin(), by_worth.end());
+    if (by_worth.size() > static_cast<std::size_t>(most))
+        by_worth.resize(static_cast<std::size_t>(most));
+    std::vector<std::size_t> out;
+    for (const auto& [worth, c] : by_worth) out.push_back(c);
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
 /// The fields, faded as little as the budget allows, all alike. Returns their bytes.
 long fade_to_budget(const std::vector<Points>& whole, const Compression& how,
                     std::vector<SparseShape>& out) {
@@ -267,12 +284,25 @@ LowRank low_rank(std::vector<DriverField> fields, const std::vector<PlayedFrame>
             names.push_back((k == 0 ? "correctiveLeft" : "correctiveRight") + side[k].ending[c]);
             of_drivers.push_back(std::move(side[k].of_drivers[c]));
         }
+    const auto wanted = [&] {
+        Eigen::MatrixXd factors(static_cast<long>(whole.size()), static_cast<long>(fields.size()));
+        for (std::size_t c = 0; c < whole.size(); ++c)
+            factors.row(static_cast<long>(c)) = of_drivers[c].transpose();
+        return wanted_of(stack, drivers, use, factors);
+    };
+    const std::vector<std::size_t> kept = worth_most(whole, wanted(), area, how.most);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        if (kept[i] == i) continue;
+        whole[i] = std::move(whole[kept[i]]);
+        names[i] = std::move(names[kept[i]]);
+        of_drivers[i] = std::move(of_drivers[kept[i]]);
+    }
+    whole.resize(kept.size());
+    names.resize(kept.size());
+    of_drivers.resize(kept.size());
     std::vector<SparseShape> shapes;
     out.bytes = fade_to_budget(whole, how, shapes);
-    Eigen::MatrixXd factors(static_cast<long>(whole.size()), static_cast<long>(fields.size()));
-    for (std::size_t c = 0; c < whole.size(); ++c)
-        factors.row(static_cast<long>(c)) = of_drivers[c].transpose();
-    fit_again(shapes, whole, wanted_of(stack, drivers, use, factors), stack);
+    fit_again(shapes, whole, wanted(), stack);
     for (std::size_t c = 0; c < whole.size(); ++c)
         if (!shapes[c].empty())
             out.correctives.push_back(
@@ -291,7 +321,7 @@ LowRank one_of_each(std::vector<DriverField> fields, const std::vector<PlayedFra
         by_worth.emplace_back(
             -use[static_cast<long>(t)] * area.dot(fields[t].field.rowwise().squaredNorm()), t);
     std::stable_sort(by_worth.begin(), by_worth.end());
-    const auto most = static_cast<std::size_t>(2 * how.most_of_a_side);
+    const auto most = static_cast<std::size_t>(how.most);
     if (by_worth.size() > most) by_worth.resize(most);
     std::sort(by_worth.begin(), by_worth.end(),
               [](const auto& x, const auto& y) { return x.second < y.second; });

@@ -41,8 +41,10 @@ struct Compression {
     Fade fade = {};
     /// Half the width of the strip in which the sides of the face merge
     double half_width_m = 0.015;
-    int most_of_a_side =
-        32;  ///< maximum number of correctives per side; those for the other sign are not counted
+    /// Maximum number of directions per side; each may have a second corrective for the other sign
+    int most_of_a_side = 32;
+    /// Maximum number of correctives of both sides together; those that move the least are dropped
+    int most = 64;
     long bytes_of_a_vertex = 15;  ///< bytes per vertex of a corrective in a file
     long budget_bytes = 800'000;  ///< limit for all correctives together
 };
@@ -59,7 +61,7 @@ LowRank low_rank(std::vector<DriverField> fields, const std::vector<PlayedFrame>
                  const Points& rest, const Eigen::VectorXd& area, const Compression& how = {});
 
 /// The same without compression: those drivers whose fields matter most, each with a corrective of its own that has its name
-/// (Driver::target_name()) and its value as weight. At most twice Compression::most_of_a_side.
+/// (Driver::target_name()) and its value as weight. At most Compression::most.
 LowRank one_of_each(std::vector<DriverField> fields, const std::vector<PlayedFrame>& frames,
                     const Points& rest, const Eigen::VectorXd& area, const Compression& how = {});
 

@@ -320,6 +320,10 @@ class PartMaker {
             part.made.node = node;
             part.made.roughness = substance->roughness;
             part.made.see_both_sides = substance->see_both_sides;
+            // In the dark, or thinner than a pixel
+            part.made.normals_turn = part.material != Material::kMouth &&
+                                     part.material != Material::kGums &&
+                                     part.material != Material::kLashes;
             part.made.opacity = substance->opacity;
             part.made.picture = picture;
             part.made.picture_cuts = picture >= 0 && part.material == Material::kLashes;

@@ -21,6 +21,8 @@ constexpr double kShares_m = 0.3e-3;
 // Pairs with a larger error are also simulated at intermediate weights, and on one side.
 constexpr double kBentPair_m = 1e-3, kOneSidedPair_m = 2e-3;
 
+constexpr int kMostNamed = 64;  // which are less accurate one by one
+
 struct Candidate {
     std::size_t a, b;  ///< units; equal for a unit at weight 1/2
     double matters = 0;
@@ -132,6 +134,7 @@ CorrectiveOptions correctives_of_set(const std::string& set) {
     out.pairs = 160;
     out.bent_pairs = true;
     out.budget_bytes = 4'000'000;
+    out.most = 64;
     out.random_frames = 192;
     return out;
 }
@@ -204,6 +207,7 @@ Correctives find_correctives(const scene::RigFiles& files, const MadeShapes& sha
         reduced(drivers.take(), frames, head.vertices, scene::seen_areas(solver.face()),
                 {.fade = {0.5 * options.fade_m, 1.5 * options.fade_m},
                  .half_width_m = head.mm(kSharedStrip_mm),
+                 .most = options.named ? kMostNamed : options.most,
                  .budget_bytes = options.budget_bytes});
     out.rig.drivers = std::move(made.drivers);
     out.rig.correctives = std::move(made.correctives);

@@ -22,6 +22,9 @@ struct CorrectiveOptions {
     double fade_m = 0.1e-3;  ///< smaller displacements of a corrective are removed
     /// Limit of the bytes of all correctives in a file; small displacements are dropped to meet it
     long budget_bytes = 700'000;
+    /// Maximum number of low-rank correctives. three.js keeps every morph target of a part dense: with 18 of them and the 52 shapes of
+    /// ARKit a head takes 25 MB, and more hardly help.
+    int most = 18;
     /// True: each corrective follows one driver and has its name (one_of_each()); false: sums of drivers (low_rank()), which are ten
     /// times as accurate at the same size
     bool named = false;

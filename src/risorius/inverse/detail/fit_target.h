@@ -23,6 +23,11 @@ struct FitTarget {
     std::vector<Points> fields;           ///< V x 3 each, m, head frame
     Eigen::VectorXd weight;               ///< V, weight of each vertex in the error
     std::vector<std::string> notes = {};  ///< values of landmarks that were missing and are bridged
+    /// V, one per frame: how sure each vertex of the frame is, 0 to 1; empty: all are
+    std::vector<Eigen::VectorXd> sure = {};
+    bool flat = false;        ///< the fields have no depth, and say nothing of it
+    std::string set = {};     ///< of landmarks: "rig", or of which points they are
+    double sitter_scale = 1;  ///< m of the rig per unit of the sitter
 };
 
 /// Reads a table of measured shapes (.json), shapes.glb of `risorius shapes`, or the shapes of any other glTF file on the rig's mesh. `only`: names; empty: all. Throws Error.
@@ -34,12 +39,5 @@ FitTarget given_shapes(const std::filesystem::path& file, const std::vector<std:
 FitTarget given_meshes(const std::vector<std::filesystem::path>& meshes,
                        const scene::RigFiles& files, const face::Face& face,
                        const std::function<bool()>& stopped);
-
-/// Reads a table with the columns time_s and ID.x_mm, ID.y_mm, ID.z_mm, using at most `fps` rows per second. The motion of the
-/// head is estimated from landmarks that muscles hardly move, and removed. `max_m`: largest displacement of each of `points` by
-/// muscles, m. Throws Error.
-FitTarget given_landmarks(const std::filesystem::path& file, int fps,
-                          const scene::LandmarkPoints& points, const std::vector<double>& max_m,
-                          long vertices);
 
 }  // namespace risorius::inverse

@@ -76,8 +76,7 @@ class Choice {
     }
     double value_of(const Set& set) const {
         double cost = 0;
-        for (const std::size_t c : set)
-            cost += candidates_[c].is_unit ? options_.unit_cost : options_.muscle_cost;
+        for (const std::size_t c : set) cost += options_.unit_cost * candidates_[c].cost;
         return problems_.best(sources_of(set)) + cost;
     }
     /// The best set that was looked at, and its value.

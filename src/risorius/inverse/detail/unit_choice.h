@@ -18,9 +18,8 @@
 namespace risorius::inverse {
 
 struct UnitChoiceOptions {
-    int most = 8;            ///< maximum number of candidates
-    double unit_cost = 0;    ///< relative to |g|^2 / 2
-    double muscle_cost = 0;  ///< the same for a muscle
+    int most = 8;          ///< maximum number of candidates
+    double unit_cost = 0;  ///< times that of the candidate, relative to |g|^2 / 2
     double ridge = 1e-6, price = 1e-5;
 };
 

@@ -16,12 +16,11 @@ namespace {
 
 constexpr double kSmallPrice = 1e-5;   // of a weight of 1, so that units that do nothing rest
 constexpr double kLeastWeight = 0.03;  // what stays below is left out
-constexpr double kKeep = 1e-5;     // of squared differences from the weights of a frame, for keys
-constexpr double kGain = 0.9;      // of what was left; with less a search ends
-constexpr double kMuscleCost = 4;  // relative to a unit
+constexpr double kKeep = 1e-5;  // of squared differences from the weights of a frame, for keys
+constexpr double kGain = 0.8;   // of what was left; with more a search ends
 constexpr double kNearEnough =
     2.5;  // a choice with less left, relative to the least gain of a unit, is not made again
-constexpr int kCorrections = 6, kCloseChoices = 2, kChoices = 3, kRounds = 3, kTangents = 4,
+constexpr int kCorrections = 4, kCloseChoices = 2, kChoices = 3, kRounds = 3, kTangents = 4,
               kChecks = 2, kSweeps = 3;
 constexpr double kSmooth =
     1e-4;  // of squared differences from the mean of the neighbours of a frame
@@ -49,13 +48,13 @@ class UnitSolver {
                 target_.col(static_cast<long>(t)).segment<3>(3 * static_cast<long>(i)) =
                     given.fields[t].row(vertices[i]).transpose();
         target_ = root_.asDiagonal() * target_;
+        take_confidence(given);
         size_ = target_.colwise().squaredNorm().maxCoeff(&peak_);
         const long n = bench.sources().count();
         active_.assign(static_cast<std::size_t>(n), false);
         price_ = Eigen::VectorXd::Zero(n);
         for (const UnitCandidate& one : bench.sources().candidates())
-            for (const std::size_t s : one.sources)
-                price_[static_cast<long>(s)] = one.is_unit ? 1 : kMuscleCost;
+            for (const std::size_t s : one.sources) price_[static_cast<long>(s)] = one.cost;
         weight_ = Eigen::MatrixXd::Zero(n, target_.cols());
     }
 
@@ -100,18 +99,44 @@ class UnitSolver {
     ProgressMonitor quiet() const { return {.progress = {}, .stopped = monitor_.stopped}; }
     double rms_of(const Eigen::VectorXd& left) const { return left.norm() / std::sqrt(points_); }
 
+    /// How much each row of the target counts in each frame.
+    void take_confidence(const FitTarget& given) {
+        if (given.sure.empty()) return;
+        const std::vector<int>& vertices = bench_.vertices();
+        share_.resize(target_.rows(), target_.cols());
+        for (long t = 0; t < share_.cols(); ++t)
+            for (std::size_t i = 0; i < vertices.size(); ++i)
+                for (long k = 0; k < 3; ++k)
+                    share_(3 * static_cast<long>(i) + k, t) =
+                        given.flat && k == 2
+                            ? 0
+                            : std::sqrt(given.sure[static_cast<std::size_t>(t)][vertices[i]]);
+        target_.array() *= share_.array();
+    }
+    /// What is seen of displacements of the points in a frame.
+    Eigen::VectorXd seen(long frame, Eigen::VectorXd moved) const {
+        if (share_.size() > 0) moved.array() *= share_.col(frame).array();
+        return moved;
+    }
+    UnitModel::Tangent tangent(long frame, const Eigen::VectorXd& weight) const {
+        UnitModel::Tangent out = model_.tangent(weight);
+        if (share_.size() == 0) return out;
+        out.at_zero = seen(frame, std::move(out.at_zero));
+        out.way = share_.col(frame).asDiagonal() * out.way;
+        return out;
+    }
+
     UnitFit usual_fit(double price) const {
         return {.size = size_, .price = price * price_, .expected = {}};
     }
     /// Weights for a frame by the model, from weights that are near.
-    Eigen::VectorXd fitted(const Eigen::VectorXd& goal, Eigen::VectorXd near) const {
-        return fitted(goal, near, usual_fit(kSmallPrice));
+    Eigen::VectorXd fitted(long frame, Eigen::VectorXd near) const {
+        return fitted(frame, near, usual_fit(kSmallPrice));
     }
-    Eigen::VectorXd fitted(const Eigen::VectorXd& goal, Eigen::VectorXd near,
-                           const UnitFit& how) const {
+    Eigen::VectorXd fitted(long frame, Eigen::VectorXd near, const UnitFit& how) const {
         for (int round = 0; round < kTangents; ++round) {
             const Eigen::VectorXd next =
-                fit_weights(model_.tangent(near), goal, active_, near, how);
+                fit_weights(tangent(frame, near), target_.col(frame), active_, near, how);
             const double change = (next - near).cwiseAbs().maxCoeff();
             near = next;
             constexpr double kSame = 1e-3;
@@ -129,7 +154,7 @@ class UnitSolver {
             fit_frames();
             double most = 0;
             for (long t = 0; t < target_.cols(); ++t) {
-                const double left = (model_.moved(weight_.col(t)) - target_.col(t)).norm(),
+                const double left = (seen(t, model_.moved(weight_.col(t))) - target_.col(t)).norm(),
                              whole = target_.col(t).norm();
                 if (left < kExplained * whole || rms_of(target_.col(t)) < 0.1 * rms_of_peak())
                     continue;
@@ -156,21 +181,19 @@ class UnitSolver {
         const auto choose = [&] {
             // What is known of the rig near the first choice may tell a better one.
             for (int round = 0; round < kChoices; ++round) {
-                const UnitChoice choice = choose_units(model_.tangent(w), goal, bench_.sources(),
-                                                       {.most = options_.most,
-                                                        .unit_cost = cost,
-                                                        .muscle_cost = kMuscleCost * cost,
-                                                        .price = kSmallPrice});
+                const UnitChoice choice =
+                    choose_units(tangent(frame, w), goal, bench_.sources(),
+                                 {.most = options_.most, .unit_cost = cost, .price = kSmallPrice});
                 const bool same = choice.active == active_;
                 active_ = choice.active;
-                w = fitted(goal, choice.weight);
+                w = fitted(frame, choice.weight);
                 if (same) break;
             }
             // A new choice is judged after a correction.
             double last = std::numeric_limits<double>::infinity();
             for (int round = 0; round < kCorrections; ++round) {
-                if (round > 0) w = fitted(goal, w);
-                const double left = simulate_one(w, goal, walk);
+                if (round > 0) w = fitted(frame, w);
+                const double left = simulate_one(w, frame, walk);
                 const bool ends = left > kGain * last;
                 last = left;
                 if (left < least) {
@@ -185,7 +208,7 @@ class UnitSolver {
         for (int round = 0; round < kCloseChoices && least > kNearEnough * options_.least_gain_m;
              ++round) {
             w = best.weight;
-            add_state(w, goal);
+            add_state(w, frame);
             walk.restart();
             const double last_least = least;
             choose();
@@ -194,24 +217,24 @@ class UnitSolver {
         active_ = best.active;
         w = best.weight;
         for (int round = 0; round < kRounds && least > options_.least_gain_m; ++round) {
-            w = fitted(goal, w);
-            const double left = simulate_one(w, goal, walk);
+            w = fitted(frame, w);
+            const double left = simulate_one(w, frame, walk);
             if (left < options_.least_gain_m || left > kGain * least) break;
             least = left;
         }
-        w = fitted(goal, w);
+        w = fitted(frame, w);
         for (std::size_t s = 0; s < active_.size(); ++s) active_[s] = active_[s] || before[s];
         weight_.col(frame) = w;
     }
 
     /// Adds the equilibrium under weights to the model with its derivatives: by the sources that are used, and by those of which a little
     /// would help most. Of all others the model has good ones.
-    void add_state(const Eigen::VectorXd& w, const Eigen::VectorXd& goal) {
-        const UnitModel::Tangent now = model_.tangent(w);
-        const Eigen::VectorXd left = goal - now.at_zero - now.way * w;
+    void add_state(const Eigen::VectorXd& w, long frame) {
+        const UnitModel::Tangent now = model_.tangent(w), shown = tangent(frame, w);
+        const Eigen::VectorXd left = target_.col(frame) - shown.at_zero - shown.way * w;
         std::vector<std::pair<double, std::size_t>> help;
         for (std::size_t s = 0; s < active_.size(); ++s) {
-            const auto way = now.way.col(static_cast<long>(s));
+            const auto way = shown.way.col(static_cast<long>(s));
             help.emplace_back(-std::pow(way.dot(left), 2) / std::max(way.squaredNorm(), 1e-30), s);
         }
         std::sort(help.begin(), help.end());
@@ -225,11 +248,10 @@ class UnitSolver {
     }
 
     /// Adds the equilibrium under weights to the model. Returns the RMS distance from the goal, m.
-    double simulate_one(const Eigen::VectorXd& w, const Eigen::VectorXd& goal,
-                        UnitBench::Walk& walk) {
+    double simulate_one(const Eigen::VectorXd& w, long frame, UnitBench::Walk& walk) {
         const Eigen::VectorXd moved = root_.asDiagonal() * walk.moved(w, quiet());
         model_.add(w, moved);
-        return rms_of(moved - goal);
+        return rms_of(seen(frame, moved) - target_.col(frame));
     }
 
     /// Fits every frame, then again near its neighbours: units that act alike do not take turns.
@@ -239,14 +261,14 @@ class UnitSolver {
             Eigen::VectorXd near = weight_.col(t);
             if (near.isZero(0.0))
                 near = std::clamp(target_.col(t).dot(target_.col(peak_)) / size_, 0.0, 1.0) * top;
-            weight_.col(t) = fitted(target_.col(t), near);
+            weight_.col(t) = fitted(t, near);
         }
         UnitFit how = usual_fit(kSmallPrice);
         how.keep = kSmooth;
         for (int sweep = 0; sweep < kSweeps; ++sweep)
             for (long t = 1; t + 1 < target_.cols(); ++t) {
                 how.expected = 0.5 * (weight_.col(t - 1) + weight_.col(t + 1));
-                weight_.col(t) = fitted(target_.col(t), weight_.col(t), how);
+                weight_.col(t) = fitted(t, weight_.col(t), how);
             }
     }
 
@@ -339,7 +361,7 @@ class UnitSolver {
     std::vector<FrameCost> costs() const {
         std::vector<FrameCost> out;
         for (long t = 0; t < target_.cols(); ++t) {
-            const UnitModel::Tangent at = model_.tangent(weight_.col(t));
+            const UnitModel::Tangent at = tangent(t, weight_.col(t));
             Eigen::MatrixXd way(target_.rows(), static_cast<long>(channels_.size()));
             for (std::size_t c = 0; c < channels_.size(); ++c)
                 way.col(static_cast<long>(c)) =
@@ -400,7 +422,7 @@ class UnitSolver {
         out.simulated.assign(static_cast<std::size_t>(target_.cols()), false);
         for (const long t : checked) out.simulated[static_cast<std::size_t>(t)] = true;
         for (long t = 0; t < target_.cols(); ++t) {
-            const Eigen::VectorXd left = model_.moved(weight_.col(t)) - target_.col(t);
+            const Eigen::VectorXd left = seen(t, model_.moved(weight_.col(t))) - target_.col(t);
             out.rms_m.push_back(rms_of(left));
             double max = 0;
             for (long i = 0; i < left.size(); i += 3)
@@ -423,6 +445,7 @@ class UnitSolver {
     Eigen::VectorXd root_;    ///< square roots of the weights of the points, three for each
     double points_ = 0;       ///< sum of the weights
     Eigen::MatrixXd target_;  ///< weighted, one column per frame
+    Eigen::MatrixXd share_;   ///< roots of how sure the target is; empty: it is sure
     double size_ = 0;         ///< its squares in the frame of the largest motion
     Eigen::Index peak_ = 0;   ///< this frame
     Eigen::VectorXd price_;   ///< of a source, relative to that of a unit

@@ -25,8 +25,8 @@ namespace risorius::inverse {
 /// Options of solve_units().
 struct UnitSolveOptions {
     int most = 8;  ///< maximum number of units in a frame, left and right counting as one
-    /// A unit that reduces the squares of what is left by less than those of this RMS, m, is not used; a muscle has to do four times as
-    /// much.
+    /// A unit that reduces the squares of what is left by less than those of this RMS, m, is not used; a rare unit and a
+    /// muscle have to do more (UnitCandidate::cost).
     double least_gain_m = 4e-5;
     /// RMS that the face may move when both sides share a curve, m
     double same_sides_m = 3e-5;

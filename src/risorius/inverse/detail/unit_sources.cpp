@@ -2,6 +2,9 @@
 #include "risorius/inverse/detail/unit_sources.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
 
 #include "risorius/blendshapes/shape_player.h"
 #include "risorius/rig/expression_drive.h"
@@ -12,6 +15,24 @@ UnitSources::UnitSources(const scene::RigFiles& files, bool pressure, bool tongu
     : channels_(files.rig.channels()) {
     add(files, "facs", true, pressure, tongue);
     add(files, "muscles", false, pressure, tongue);
+    set_costs(files.rig.expressions);
+}
+
+// What landmarks hardly tell apart, such as AU25 and AU16, prior knowledge does: the negative logarithm of the share of expressions
+// that have a unit, with one more expression for it and one against it.
+void UnitSources::set_costs(const track::Expressions& expressions) {
+    constexpr double kOfMuscle = 4, kOfRarity = 0.5;
+    std::map<std::string, int> count;
+    for (const track::Expression& one : expressions.list) {
+        std::set<std::string> units;
+        for (const track::ExpressionUnit& unit : one.parts.units) units.insert(unit.use.unit);
+        for (const std::string& unit : units) ++count[unit];
+    }
+    int most = 0;
+    for (const auto& [unit, times] : count) most = std::max(most, times);
+    for (UnitCandidate& one : candidates_)
+        one.cost = one.is_unit ? 1 + kOfRarity * std::log((most + 1.0) / (count[one.name] + 1.0))
+                               : kOfMuscle;
 }
 
 void UnitSources::add(const scene::RigFiles& files, const std::string& set, bool units,
@@ -34,7 +55,7 @@ void UnitSources::add(const scene::RigFiles& files, const std::string& set, bool
             return one.is_unit == units && one.name == name;
         });
         if (known == candidates_.end())
-            known = candidates_.insert(candidates_.end(), UnitCandidate{name, {}, units});
+            known = candidates_.insert(candidates_.end(), UnitCandidate{name, {}, units, 1});
         known->sources.push_back(sources_.size());
         const track::ActionUnit* const unit =
             units ? files.rig.facs.find(track::split_side(goal.name).id) : nullptr;

@@ -28,6 +28,9 @@ struct UnitCandidate {
     std::string name;
     std::vector<std::size_t> sources;
     bool is_unit = true;
+    /// How much it has to explain before it is used, relative to the unit that expressions have most often: a rare unit more, a muscle
+    /// four times as much
+    double cost = 1;
 };
 
 class UnitSources {
@@ -47,6 +50,7 @@ class UnitSources {
     track::Expansion change_of(std::size_t source, double weight) const;
 
   private:
+    void set_costs(const track::Expressions& expressions);
     void add(const scene::RigFiles& files, const std::string& set, bool units, bool pressure,
              bool tongue);
 
