@@ -14,7 +14,7 @@ marks = [np.argmin(np.linalg.norm(face.rest_vertices - face.landmark(m), axis=1)
 
 
 def settled(activation):
-    face.settle(dict(zip(names, activation)))
+    face.solve_equilibrium(dict(zip(names, activation)))
     return face.vertices[marks].ravel().copy()
 
 

@@ -9,7 +9,7 @@ import risorius
 
 face = risorius.Face()
 rest = face.landmark("ch_l")
-face.settle({"AU6": 0.7, "AU12": 1})
+face.solve_equilibrium({"AU6": 0.7, "AU12": 1})
 moved = 1e3 * (face.landmark("ch_l") - rest)
 print("the left corner of the mouth moves by %.1f, %.1f, %.1f mm" % tuple(moved))
 picture = face.render(512, 512)[:, :, :3]

@@ -51,7 +51,7 @@ class PythonFace {
     }
     /// Keeps the drive for the steps that follow.
     void set(const Values& values) { drive_ = drive_of(values); }
-    bool settle(const std::optional<Values>& values) {
+    bool solve_equilibrium(const std::optional<Values>& values) {
         if (values) set(*values);
         const bool converged = face_.solve_equilibrium(drive_.excitation, drive_).converged;
         keep(face_.pose());
@@ -395,15 +395,18 @@ void add_face(py::module_& module) {
     face.def("reset", &PythonFace::reset, free, "Sets the time to 0 and lets the face rest.")
         .def("set", &PythonFace::set, py::arg("drive"), free,
              "Sets what drives the steps that follow.")
-        .def("settle", &PythonFace::settle, py::arg("drive") = py::none(), free,
+        .def("solve_equilibrium", &PythonFace::solve_equilibrium, py::arg("drive") = py::none(),
+             free,
              "Puts the face into equilibrium with the drive, and returns whether the solver came "
              "to rest.")
+        .def("settle", &PythonFace::solve_equilibrium, py::arg("drive") = py::none(), free,
+             "The former name of solve_equilibrium().")
         .def("step", &PythonFace::step, py::arg("drive") = py::none(), py::arg("steps") = 1, free,
              "Advances by steps of step_s, with the dynamics of muscles and tissue.")
         .def("sensitivities", &sensitivity_array, py::arg("names"),
              "Derivatives of the vertices, K x V x 3: m per unit of activation of a column, or per "
-             "unit of a channel. Call settle() "
-             "before.")
+             "unit of a channel. Call "
+             "solve_equilibrium() before.")
         .def(
             "play",
             [](PythonFace& self, const py::object& script, const py::function& see,

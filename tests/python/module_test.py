@@ -34,7 +34,7 @@ class FaceTest(unittest.TestCase):
 
     def test_a_smile_raises_the_corners_alike(self):
         rest = {side: self.face.landmark("ch_" + side) for side in "lr"}
-        self.assertTrue(self.face.settle({"AU12": 1}))
+        self.assertTrue(self.face.settle({"AU12": 1}))  # the former name
         moved = {side: 1e3 * (self.face.landmark("ch_" + side) - rest[side]) for side in "lr"}
         self.assertGreater(moved["l"][1], 8)
         self.assertLess(np.abs(moved["l"] - moved["r"] * [-1, 1, 1]).max(), 0.7)
@@ -43,10 +43,10 @@ class FaceTest(unittest.TestCase):
         rest = self.face.landmark("ch_l")
         way = []
         for intensity in (0.5, 1):
-            self.face.settle({"AU12": intensity})
+            self.face.solve_equilibrium({"AU12": intensity})
             way.append(np.linalg.norm(self.face.landmark("ch_l") - rest))
         self.assertAlmostEqual(way[0] / way[1], 0.5, delta=0.06)
-        self.face.settle({"jaw_open": 0.5, "AU12.r": 1})
+        self.face.solve_equilibrium({"jaw_open": 0.5, "AU12.r": 1})
         self.assertLess(np.linalg.norm((self.face.landmark("ch_l") - rest)[:2]), 12e-3)
         self.assertEqual(self.face.activation[self.face.columns.index("zygomaticus_major.l")], 0)
         self.assertGreater(self.face.activation[self.face.columns.index("zygomaticus_major.r")], 0.2)
@@ -80,12 +80,12 @@ class FaceTest(unittest.TestCase):
 
     def test_sensitivities_are_derivatives(self):
         name, step = "zygomaticus_major.l", 0.01
-        self.face.settle({name: 0.3})
+        self.face.solve_equilibrium({name: 0.3})
         slope = self.face.sensitivities([name, "jaw_open"])
         self.assertEqual(slope.shape, (2,) + self.face.vertices.shape)
         ends = []
         for value in (0.3 - step, 0.3 + step):
-            self.face.settle({name: value})
+            self.face.solve_equilibrium({name: value})
             ends.append(self.face.vertices.copy())
         difference = (ends[1] - ends[0]) / (2 * step)
         self.assertLess(np.abs(slope[0] - difference).max(), 0.1 * np.abs(difference).max())
@@ -93,7 +93,7 @@ class FaceTest(unittest.TestCase):
     def test_pictures_are_arrays(self):
         rest = self.face.render(96, 128, draft=True)
         self.assertEqual((rest.shape, rest.dtype), ((128, 96, 4), np.uint8))
-        self.face.settle({"jaw_open": 1})
+        self.face.solve_equilibrium({"jaw_open": 1})
         self.assertGreater(np.abs(self.face.render(96, 128, draft=True).astype(int) - rest).mean(), 1)
 
     def test_play_follows_the_script(self):
@@ -108,13 +108,13 @@ class FaceTest(unittest.TestCase):
     def test_errors_say_what_was_expected(self):
         for wrong, part in (({"AU99": 1}, "the name of a muscle, an action unit"), ({"procerus": float("nan")}, "NaN")):
             with self.assertRaises(risorius.Error) as caught:
-                self.face.settle(wrong)
+                self.face.solve_equilibrium(wrong)
             self.assertIn(part, str(caught.exception))
             self.assertIsInstance(caught.exception, ValueError)
         with self.assertRaises(risorius.Error):
             risorius.Face("no/such/rig.json")
         with self.assertRaises(TypeError):
-            self.face.settle({"AU12": "much"})
+            self.face.solve_equilibrium({"AU12": "much"})
         with self.assertRaises(ZeroDivisionError):
             self.face.play({"format": "risorius-script", "version": 1, "rig": "r", "duration_s": 1}, lambda t: 1 / 0)
 
