@@ -4,7 +4,7 @@
     import risorius
 
     face = risorius.Face()                      # the adult that comes with Risorius
-    face.solve_equilibrium({"AU6": 0.7, "AU12": 1})        # a smile in equilibrium
+    face.solve_equilibrium({"AU6": 0.7, "AU12": 1})   # a smile
     print(face.landmark("ch_l"))                # the left corner of the mouth, m
     picture = face.render(512, 512)             # height x width x 4
 
