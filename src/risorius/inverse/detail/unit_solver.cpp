@@ -20,7 +20,7 @@ constexpr double kKeep = 1e-5;  // of squared differences from the weights of a 
 constexpr double kGain = 0.8;   // of what was left; with more a search ends
 constexpr double kNearEnough =
     2.5;  // a choice with less left, relative to the least gain of a unit, is not made again
-constexpr int kCorrections = 4, kCloseChoices = 2, kChoices = 3, kRounds = 3, kTangents = 4,
+constexpr int kCorrections = 4, kCloseChoices = 2, kChoices = 3, kCheckRounds = 3, kTangents = 4,
               kChecks = 2, kSweeps = 3;
 constexpr double kSmooth =
     1e-4;  // of squared differences from the mean of the neighbours of a frame
@@ -216,7 +216,7 @@ class UnitSolver {
         }
         active_ = best.active;
         w = best.weight;
-        for (int round = 0; round < kRounds && least > options_.least_gain_m; ++round) {
+        for (int round = 0; round < kCheckRounds && least > options_.least_gain_m; ++round) {
             w = fitted(frame, w);
             const double left = simulate_one(w, frame, walk);
             if (left < options_.least_gain_m || left > kGain * least) break;
