@@ -37,13 +37,22 @@ track::Drive smile_at(const scene::RigFiles& files, double share) {
     return rig::clamped_drive(sum, files.rig.channels());
 }
 
+/// A face at rest that is to be recorded, and where its landmarks are.
+struct Sitter {
+    scene::RigFiles files = scene::read_rig_files(kSmiling);
+    face::Face face{files.rig, files.mesh, face::quality_named("preview"), files.place()};
+    scene::LandmarkPoints points{face.head(), files.rig};
+
+    Sitter() {
+        track::Drive rest;
+        rest.excitation = Eigen::VectorXd::Zero(files.rig.channels().column_count());
+        face.start([&](double) { return rest; });
+    }
+};
+
 TEST(SolveUnits, ASmileIsNamedAndHasFewKeys) {
-    const scene::RigFiles files = scene::read_rig_files(kSmiling);
-    face::Face face(files.rig, files.mesh, face::quality_named("preview"), files.place());
-    const scene::LandmarkPoints points(face.head(), files.rig);
-    track::Drive rest;
-    rest.excitation = Eigen::VectorXd::Zero(files.rig.channels().column_count());
-    face.start([&](double) { return rest; });
+    Sitter sitter;
+    auto& [files, face, points] = sitter;
     const TemporaryFolder folder;
     const fs::path table = folder.path() / "seen.tsv";
     constexpr int kFrames = 13;
@@ -119,12 +128,8 @@ TEST(SolveUnits, ASmileIsNamedAndHasFewKeys) {
 }
 
 TEST(SolveUnits, ASmileOfAnotherPersonBeforeACameraIsNamed) {
-    const scene::RigFiles files = scene::read_rig_files(kSmiling);
-    face::Face face(files.rig, files.mesh, face::quality_named("preview"), files.place());
-    const scene::LandmarkPoints points(face.head(), files.rig);
-    track::Drive rest;
-    rest.excitation = Eigen::VectorXd::Zero(files.rig.channels().column_count());
-    face.start([&](double) { return rest; });
+    Sitter sitter;
+    auto& [files, face, points] = sitter;
     const TemporaryFolder folder;
     const fs::path table = folder.path() / "camera.csv";
     constexpr int kFrames = 13, kHidden = 4;
