@@ -176,6 +176,9 @@ TEST_F(LandmarkSets, JsonOfMediaPipeHasSharesOfThePicture) {
     }
     const fs::path file = write("seen.jsonl", out.str());
     EXPECT_LT(error_m(read(file, {.picture_px = {kWidth_px, kHeight_px}}), set), 0.5e-3);
+    // What is wrong with a file comes before the size that it lacks.
+    const fs::path cut = write("cut.json", "{\"frames\": [");
+    EXPECT_NE(message_of([&] { read(cut); }).find("expected valid JSON"), std::string::npos);
     EXPECT_TRUE(message_of([&] { read(file); }).find("--picture") != std::string::npos ||
                 message_of([&] { read(file); }).find("picture") != std::string::npos);
 }

@@ -219,11 +219,6 @@ class Table {
 LandmarkRecording read_mediapipe_json(const fs::path& file, const std::vector<std::string>& ids,
                                       const std::array<int, 2>& picture_px) {
     const std::string place = file.string();
-    if (picture_px[0] <= 0 || picture_px[1] <= 0)
-        throw Error(option_name("picture"),
-                    "the size of the picture, as 1280x720, since MediaPipe writes shares of its "
-                    "width and height",
-                    "none");
     const Vec3 size(picture_px[0], picture_px[1], picture_px[0]);
     std::map<int, PointTrack> points;
     std::vector<double> times_s;
@@ -258,6 +253,12 @@ LandmarkRecording read_mediapipe_json(const fs::path& file, const std::vector<st
                         track.confidence.back() *= sure->number();
             }
     }
+    // Told last, so that another file is not taken for one of MediaPipe that only lacks its size.
+    if (picture_px[0] <= 0 || picture_px[1] <= 0)
+        throw Error(option_name("picture"),
+                    "the size of the picture, as 1280x720, since MediaPipe writes shares of its "
+                    "width and height",
+                    "none");
     check_times(times_s, place);
     for (auto& [number, track] : points) enlarge(track);
     return of_set(mediapipe_points(), times_s, std::move(points), ids, place);
