@@ -91,15 +91,16 @@ layout(binding = 0) uniform sampler2DShadow shadow_map;
 
 // Soft edge of the key light over a disc of 3.5 mm, wider below the chin: what shades neck and chest is the far jaw. The samples of a 2 x 2 block share the taps of one spiral (Vogel 1979)
 // among them, every fourth each, and all get the mean. Not to be called where the block's samples go different ways.
-// Each tap is as deep as the plane of the surface is there, so that slanted skin throws no shadow on itself.
-float key_visibility(vec3 p, vec3 n) {
+// Each tap is as deep as the plane of the surface is there, so that slanted skin throws no shadow on itself. `further`: turn of
+// the spiral.
+float turned_visibility(vec3 p, vec3 n, float further) {
     float texel = shadow_places.y;
     vec3 c = (shadow_from_world * vec4(p + n * max(2.5 * texel, 0.0007), 1.0)).xyz;   // what throws it is coarse
     ivec2 q = ivec2(gl_FragCoord.xy) & 1;
     int first = q.x + 2 * q.y;
     vec2 e = first == 0 ? vec2(1.0, 0.0) : first == 1 ? vec2(-0.7374, 0.6755) : first == 2 ? vec2(0.0875, -0.9962) : vec2(0.6084, 0.7936);
     // Turned from block to block (by the sequence R2, Roberts 2018), or the steps of sixteen taps would show as terraces
-    float turn = 6.2832 * fract(dot(vec2(ivec2(gl_FragCoord.xy) >> 1), vec2(0.7548777, 0.5698403)));
+    float turn = 6.2832 * fract(dot(vec2(ivec2(gl_FragCoord.xy) >> 1), vec2(0.7548777, 0.5698403))) + further;
     e = mat2(cos(turn), sin(turn), -sin(turn), cos(turn)) * e;
     float below = clamp(mouth_centre.y - p.y - 0.06, 0.0, 0.1);
     e *= (0.0035 + 0.12 * below) / (texel * shadow_places.x);
@@ -115,6 +116,14 @@ float key_visibility(vec3 p, vec3 n) {
     float s = dot(lit, vec4(0.25));
     s += (0.5 - float(q.x)) * dFdxFine(s);
     return s + (0.5 - float(q.y)) * dFdyFine(s);
+}
+float key_visibility(vec3 p, vec3 n) { return turned_visibility(p, n, 0.0); }
+
+// With four spirals, for teeth and gums: they are bright, have few pixels, and the edge of the lip's shadow lies on them.
+float fine_visibility(vec3 p, vec3 n) {
+    float s = 0.0;
+    for (int k = 0; k < 4; ++k) s += turned_visibility(p, n, 1.5708 * 0.618 * float(k));
+    return 0.25 * s;
 }
 )";
 

@@ -25,7 +25,7 @@ void main() {
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
     vec3 v = normalize(camera.xyz - position);
     vec3 k = key_direction.xyz;
-    float s = key_visibility(position, n) * min(1.0, 1.6 * sky_seen);
+    float s = fine_visibility(position, n) * min(1.0, 1.6 * sky_seen);
     vec3 enamel = own_colour(rest, enamel_at(rest));
     // Dim light in the mouth has been to its red walls.
     vec3 tint = mix(vec3(0.85, 0.60, 0.54), vec3(1.0), smoothstep(0.05, 0.6, sky_seen));
@@ -71,7 +71,7 @@ void main() {
     vec3 m = n + 0.12 * (vec3(noise(p + 17.0), a, noise(p + 31.0)) - 0.5);
     vec3 tint = back_of(n, own_colour(rest, mucosa_at(a)), m);
     m = normalize(m);
-    float s = key_visibility(position, n) * min(1.0, 1.6 * sky_seen);
+    float s = fine_visibility(position, n) * min(1.0, 1.6 * sky_seen);
     vec3 light = key_card.rgb * s * kept * scattered(dot(m, k), vec3(0.4, 0.2, 0.15)) + soft;
     vec3 gloss = key_card.rgb * s * min(glint(m, v, k, 0.26, 0.03), 1.2);
     gloss += sky_seen * sky_seen * mirrored_share(clamp(dot(m, v), 0.0, 1.0), 0.26, 0.03) * mirrored(reflect(-v, m), 1.0);
@@ -103,7 +103,7 @@ constexpr const char* kMatte = R"(
 uniform vec3 albedo;      // linear
 void main() {
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
-    float lit = max(dot(n, key_direction.xyz), 0.0) * key_visibility(position, n);
+    float lit = max(dot(n, key_direction.xyz), 0.0) * fine_visibility(position, n);
     colour = vec4(shown(albedo * (key_card.rgb * lit + soft)), 1.0);
 }
 )";
