@@ -37,7 +37,7 @@ struct GrowthSizes {
     std::vector<int> refinements = {0, 1, 2};  ///< how often each polygon of the mesh is divided
     std::vector<int> frames = {30, 120, 480, 1920};
     std::vector<int> planned_clips = {10, 100, 1000, 10000, 100000};
-    std::vector<int> rendered_clips = {5, 20, 80, 400, 2000};
+    std::vector<int> rendered_clips = {5, 20, 80, 400};
     std::vector<int> threads = {1, 2, 4, 8, 16};
 };
 
