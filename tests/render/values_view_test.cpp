@@ -162,6 +162,21 @@ TEST(Lettering, SignsStandAboveTheirLetters) {
     EXPECT_EQ(ink("Z", 0, 18), 0);
 }
 
+// "ili" of eight pixels was one grey block: each stem lay half on two columns.
+TEST(Lettering, StemsOfSmallLettersStandApart) {
+    Image image(40, 20);
+    std::fill(image.rgba.begin(), image.rgba.end(), std::uint8_t{255});
+    write_text("ilili", {4, 14}, {.height_px = 8, .ink = 0}, image);
+    int stems = 0;
+    for (int x = 1; x < 39; ++x) {
+        const int y = 11;
+        if (image.pixel(x, y)[0] < 60 && image.pixel(x - 1, y)[0] > 150 &&
+            image.pixel(x + 1, y)[0] > 150)
+            ++stems;
+    }
+    EXPECT_EQ(stems, 5);
+}
+
 TEST(Lettering, TheSameLetterIsAsWideInAnyWord) {
     EXPECT_DOUBLE_EQ(text_width("mouth") - text_width("mout"), text_width("ah") - text_width("a"));
     EXPECT_EQ(text_width(""), 0);

@@ -55,12 +55,12 @@ void add_small_letters(Alphabet& of) {
         {joined(arc(0.34, -0.78, 0.20, 0.22, 300, 180), {{0.14, 0}}), {{0, kTop}, {0.34, kTop}}}};
     of['g'] = {0.56, {bowl, joined({{0.56, kTop}}, arc(0.28, 0.03, 0.28, 0.25, 0, 150))}};
     of['h'] = {0.50, {{{0, -1}, {0, 0}}, arch}};
-    of['i'] = {0.0, {{{0, kTop}, {0, 0}}, {{0, -0.93}, {0, -0.91}}}};
+    of['i'] = {0.10, {{{0.05, kTop}, {0.05, 0}}, {{0.05, -0.93}, {0.05, -0.91}}}};
     of['j'] = {0.12,
                {joined({{0.12, kTop}}, arc(-0.04, 0.10, 0.16, 0.18, 0, 100)),
                 {{0.12, -0.93}, {0.12, -0.91}}}};
     of['k'] = {0.46, {{{0, -1}, {0, 0}}, {{0.44, kTop}, {0, -0.22}}, {{0.16, -0.38}, {0.47, 0}}}};
-    of['l'] = {0.0, {{{0, -1}, {0, 0}}}};
+    of['l'] = {0.10, {{{0.05, -1}, {0.05, 0}}}};
     of['m'] = {0.84,
                {{{0, kTop}, {0, 0}},
                 joined(arc(0.21, -0.43, 0.21, 0.23, 180, 360), {{0.42, 0}}),
@@ -196,7 +196,7 @@ Letter with_sign(const Alphabet& of, char alone, char sign) {
     if (alone == 'i') {  // the sign stands in place of the dot
         out.lines.resize(1);
         out.width = 0.2;
-        for (Vec2& p : out.lines[0]) p.x() += 0.1;
+        for (Vec2& p : out.lines[0]) p.x() += 0.05;
     }
     const double y = alone >= 'a' && alone != 'd' && alone != 't' ? -0.90 : -1.22;
     for (Line& line : sign_lines(sign, out.width / 2, y)) out.lines.push_back(std::move(line));
@@ -266,13 +266,16 @@ void write_text(std::string_view text, const Vec2& at, const TextStyle& style, I
     Vec2 pen = at;
     for (const char32_t c : characters_of(text)) {
         const Letter& shape = letter(c);
+        // A stem lies on one column of pixels, not half on two. The first point of a letter is on its stem, if it has one.
+        const double stem = shape.lines.empty() ? 0 : shape.lines[0].front().x() * style.height_px;
+        const Vec2 drawn(std::floor(pen.x() + stem) + 0.5 - stem, pen.y());
         const int left = static_cast<int>(pen.x()) - reach,
                   top = static_cast<int>(pen.y() - kAbove * style.height_px) - reach,
-                  right = static_cast<int>(pen.x() + shape.width * style.height_px) + reach,
+                  right = static_cast<int>(pen.x() + shape.width * style.height_px) + reach + 1,
                   bottom = static_cast<int>(pen.y() + kBelow * style.height_px) + reach;
         for (int y = std::max(0, top); y <= std::min(bottom, image.height_px - 1); ++y)
             for (int x = std::max(0, left); x <= std::min(right, image.width_px - 1); ++x) {
-                const Vec2 p = (Vec2(x + 0.5, y + 0.5) - pen) / style.height_px;
+                const Vec2 p = (Vec2(x + 0.5, y + 0.5) - drawn) / style.height_px;
                 double d = 1e9;
                 for (const Line& line : shape.lines) d = std::min(d, distance_to(line, p));
                 d *= style.height_px;
