@@ -69,7 +69,7 @@ Lights::Lights(const Camera& camera, const Vec3& head_centre, const LightOptions
     glGenTextures(1, &shadow_map_);
     glBindTexture(GL_TEXTURE_2D, shadow_map_);
     glTexStorage2D(GL_TEXTURE_2D, 1, GL_DEPTH_COMPONENT32F, shadow_side_, shadow_side_);
-    const GLint filter = shadow_side_ >= kShadowSide ? GL_LINEAR : GL_NEAREST;
+    const GLint filter = draft ? GL_NEAREST : GL_LINEAR;
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
