@@ -295,6 +295,32 @@ TEST_F(TetMeshes, OfOurOwnFilesForParaviewAreRead) {
         expect_the_two(read("own.vtu", vtu_bytes(own, encoding, 0)));
 }
 
+/// A field of directions behind a legacy file of VTK.
+std::string with_field(const std::string& data) { return vtk_text() + data; }
+
+TEST_F(TetMeshes, HaveTheFibresOfTheirFile) {
+    EXPECT_EQ(read("a.vtk", vtk_text()).fibres.rows(), 0);
+    // The file has three cells, of which the first is no tetrahedron.
+    TetMesh mesh = read("b.vtk", with_field("VECTORS fibre double\n9 9 9\n1 2 3\n0 0 -2\n"));
+    ASSERT_EQ(mesh.fibres.rows(), 2);
+    EXPECT_EQ(mesh.fibres.row(0), Vec3(1, 2, 3).transpose());
+    EXPECT_EQ(mesh.fibres.row(1), Vec3(0, 0, -2).transpose());
+    mesh = read("c.vtk", with_field("POINT_DATA 6\nFIELD data 1\nfiber 3 6 double\n"
+                                    "1 0 0\n-1 0 0\n1 0 0\n1 0 0\n-1 0 0\n5 5 5\n"));
+    EXPECT_EQ(mesh.fibres.row(0), Vec3(4, 0, 0).transpose());
+    EXPECT_EQ(mesh.fibres.row(1).cwiseAbs(), Vec3(4, 0, 0).transpose());
+    EXPECT_EQ(complaint("d.vtk", with_field("POINT_DATA 4\nVECTORS fibre double\n"
+                                            "1 0 0\n1 0 0\n1 0 0\n1 0 0\n")),
+              "d.vtk: expected a fibre for each of 6 points, found 4");
+    std::string text = vtu(Form::kBase64);
+    text.insert(text.find("</CellData>"),
+                "<DataArray type=\"Float64\" Name=\"fibres\" NumberOfComponents=\"3\" "
+                "format=\"ascii\">9 9 9 1 2 3 0 0 -2</DataArray>\n");
+    mesh = read("a.vtu", text);
+    ASSERT_EQ(mesh.fibres.rows(), 2);
+    EXPECT_EQ(mesh.fibres.row(1), Vec3(0, 0, -2).transpose());
+}
+
 using Reader = TetMesh (*)(std::string_view, const std::string&);
 struct Sample {
     Reader reader;
@@ -453,11 +479,11 @@ TEST(Inflate, UnpacksWhatZlibPacked) {
 TEST(Inflate, TellsWhatIsWrong) {
     std::string out;
     EXPECT_EQ(detail::inflate(kOwnCode, 1299, out), "more bytes than it should hold");
-    EXPECT_EQ(detail::inflate("no header", 99, out), "another header than that of zlib");
-    EXPECT_EQ(detail::inflate("", 99, out), "fewer bytes than a header");
+    EXPECT_EQ(detail::inflate("no header", 99, out), "incorrect header check");
+    EXPECT_EQ(detail::inflate("", 99, out), "an end within the block");
     std::string changed = kOwnCode;
     changed.back() = static_cast<char>(changed.back() ^ 1);
-    EXPECT_EQ(detail::inflate(changed, 1300, out), "another checksum");
+    EXPECT_EQ(detail::inflate(changed, 1300, out), "incorrect data check");
     for (std::size_t length = 0; length < kOwnCode.size(); ++length)
         EXPECT_NE(detail::inflate(kOwnCode.substr(0, length), 1300, out), "") << length;
 }
