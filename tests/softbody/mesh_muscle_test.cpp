@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Bellies of muscles that are meshes: isometric force and free shortening against closed forms, the same muscle in cells, where fibres
 // come from, and what is said of mistakes.
-#include "risorius/softbody/mesh_muscle.h"
+#include "risorius/softbody/detail/mesh_muscle.h"
 
 #include <gtest/gtest.h>
 

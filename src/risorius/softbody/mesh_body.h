@@ -14,7 +14,7 @@
 /// - "tags" (numbers) and "names" say which tetrahedra have the material. One material without both is that of all others.
 /// - Laws and their constants are those of tissue/hyperelastic.h: "neo-hookean" (c10_pa), "mooney-rivlin" (c10_pa, c01_pa), "ogden"
 ///   ("terms": [[modulus_pa, exponent], ...]), "fibres" (c10_pa, c01_pa, c3_pa, c4, c5_pa, straight, along).
-/// - "muscle" makes a material contract along fibres (mesh_muscle.h). "activation" of the body, 0..1, is a number for all muscles, or a list
+/// - "muscle" makes a material contract along fibres (detail/mesh_muscle.h). "activation" of the body, 0..1, is a number for all muscles, or a list
 ///   of one for each material with "muscle".
 /// - "fixed": nodes in any of the boxes do not move; with "axes": "x", "xy" or the like, they keep only these coordinates and slide.
 #pragma once
@@ -26,7 +26,7 @@
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
-#include "risorius/softbody/mesh_muscle.h"
+#include "risorius/softbody/detail/mesh_muscle.h"
 #include "risorius/softbody/soft_body.h"
 #include "risorius/tissue/hyperelastic.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/softbody/mesh_muscle.h"
+#include "risorius/softbody/detail/mesh_muscle.h"
 
 #include <cmath>
 #include <stdexcept>
