@@ -13,12 +13,13 @@ namespace risorius::testing_of {
 struct TetBlock {
     Points rest;
     Tets tets;
-    std::array<int, 3> cells;
+    std::array<int, 3> cells{};
 };
 
 /// `edges_m` from the origin on.
 inline TetBlock tet_block(const std::array<int, 3>& cells, const Vec3& edges_m) {
-    TetBlock out{.cells = cells};
+    TetBlock out;
+    out.cells = cells;
     const auto node = [&](const std::array<int, 3>& at) {
         return (at[0] * (cells[1] + 1) + at[1]) * (cells[2] + 1) + at[2];
     };
