@@ -18,8 +18,10 @@ std::vector<char> end_nodes(const Box& box, const Points& rest, const Tets& tets
     bool any = false;
     for (Eigen::Index t = 0; t < tets.rows(); ++t)
         for (int k = 0; k < 4; ++k)
-            if (box.holds(rest.row(tets(t, k)).transpose()))
-                any = out[static_cast<std::size_t>(tets(t, k))] = 1;
+            if (box.holds(rest.row(tets(t, k)).transpose())) {
+                out[static_cast<std::size_t>(tets(t, k))] = 1;
+                any = true;
+            }
     if (!any) throw Error(place, "a box with nodes of the muscle in it", "none");
     return out;
 }
