@@ -29,7 +29,7 @@ risorius_headers(Eigen3::Eigen eigen Eigen/Core)
 risorius_headers(nlohmann_json::nlohmann_json json nlohmann/json.hpp)
 # What other modules link is not there, and neither is what calls it.
 foreach(absent IN ITEMS Threads::Threads OpenSSL::Crypto meshoptimizer::meshoptimizer tinygltf PkgConfig::FFMPEG
-        PkgConfig::EBUR128 PNG::PNG risorius_opencv_core risorius_opencv_imgproc)
+        PkgConfig::EBUR128 PNG::PNG ZLIB::ZLIB risorius_opencv_core risorius_opencv_imgproc)
     add_library(${absent} INTERFACE IMPORTED GLOBAL)
 endforeach()
 

@@ -62,6 +62,17 @@ class PythonSoftBody {
         integrator_->advance(body_.system, state_, t_s);
     }
 
+    void set_activation(const std::vector<double>& activation) {
+        if (activation.size() != body_.muscles.size())
+            throw Error("activation", std::to_string(body_.muscles.size()) + " numbers",
+                        std::to_string(activation.size()));
+        for (std::size_t m = 0; m < activation.size(); ++m) {
+            if (!(activation[m] >= 0 && activation[m] <= 1))
+                throw Error("activation", "numbers in [0, 1]", format_number(activation[m]));
+            body_.muscles[m]->set_activation([a = activation[m]](double) { return a; });
+        }
+    }
+
     const softbody::SoftBody& body() const { return body_; }
     const solve::MotionState& state() const { return state_; }
 
@@ -83,6 +94,29 @@ void add_soft_body(py::module_& module) {
              py::arg("method") = "implicit_euler", py::arg("step_s") = 1.0 / 60)
         .def("advance", &PythonSoftBody::advance, py::arg("t_s"),
              py::call_guard<py::gil_scoped_release>(), "Advances to the time t_s, s.")
+        .def("set_activation", &PythonSoftBody::set_activation, py::arg("activation"),
+             "Sets the activation of each muscle of a mesh, 0..1; the next advance() uses it.")
+        .def_property_readonly(
+            "fibre_stretch",
+            [](const PythonSoftBody& self) {
+                std::vector<double> out;
+                for (const auto& muscle : self.body().muscles)
+                    out.push_back(muscle->mean_stretch(self.state().x));
+                return out;
+            },
+            "Mean length of the fibres of each muscle of a mesh over their optimal length.")
+        .def_property_readonly(
+            "holding_n",
+            [](const PythonSoftBody& self) {
+                Points out(static_cast<Eigen::Index>(self.body().supports.size()), 3);
+                for (Eigen::Index k = 0; k < out.rows(); ++k)
+                    out.row(k) = self.body()
+                                     .holding_n(self.body().supports[static_cast<std::size_t>(k)],
+                                                self.state().x)
+                                     .transpose();
+                return out;
+            },
+            "Force with which each entry of \"fixed\" holds a mesh at rest, K x 3, N.")
         .def_property_readonly(
             "time_s", [](const PythonSoftBody& self) { return self.state().t_s; }, "Time, s.")
         .def_property_readonly(

@@ -153,21 +153,24 @@ TEST_F(Installed, ComponentThatWasNotAskedForIsNamed) {
     const fs::path project = scratch("components");
     fs::create_directories(project);
     std::ofstream(project / "main.cpp") << "int main() {}\n";
-    const auto configured = [&](const std::string& components) {
+    const auto configured = [&](const std::string& components, const std::string& linked) {
         std::ofstream(project / "CMakeLists.txt")
             << "cmake_minimum_required(VERSION 3.25)\nproject(components CXX)\n"
             << "find_package(risorius CONFIG REQUIRED COMPONENTS " << components << ")\n"
-            << "add_executable(it main.cpp)\ntarget_link_libraries(it PRIVATE risorius::scene)\n";
+            << "add_executable(it main.cpp)\ntarget_link_libraries(it PRIVATE risorius::" << linked
+            << ")\n";
         return run("cd " + quoted(project) +
                    " && cmake -S . -B build --fresh -DCMAKE_PREFIX_PATH=" + quoted(prefix()));
     };
-    const ShellResult too_few = configured("face io");
+    const ShellResult too_few = configured("face io", "scene");
     EXPECT_EQ(too_few.code, 1);
     EXPECT_NE(too_few.output.find("risorius::add_scene_to_the_COMPONENTS_of_find_package"),
               std::string::npos)
         << too_few.output;
-    const ShellResult enough = configured("scene");
-    EXPECT_EQ(enough.code, 0) << enough.output;
+    for (const char* alone : {"scene", "io", "solve", "core"}) {
+        const ShellResult enough = configured(alone, alone);
+        EXPECT_EQ(enough.code, 0) << enough.output;
+    }
 }
 
 TEST_F(Installed, PkgConfigLinksAProgram) {

@@ -4,6 +4,7 @@
 
     module_test.py FOLDER_OF_THE_MODULE FOLDER_OF_THE_SOURCES
 """
+import json
 import os
 import pathlib
 import signal
@@ -203,6 +204,18 @@ class SampleTest(unittest.TestCase):
         self.assertLess(body.nodes[3, 2], 1)
         self.assertGreater(body.nodes[3, 2], 0.99)
         self.assertLess(body.volume_m3, 1 / 6)
+
+    def test_belly_pulls_as_its_closed_form(self):
+        belly = json.loads((SOURCES / "samples/figures/belly/experiment.json").read_text())["body"]
+        belly["mesh"]["file"] = str(SOURCES / "samples/figures/belly/prism.vtk")
+        body = risorius.SoftBody(belly, method="quasi_static")
+        self.assertEqual(body.fibre_stretch, [1])
+        with self.assertRaises(risorius.Error):
+            body.set_activation([0.5, 0.5])
+        for activation in (0.5, 1):
+            body.set_activation([activation])
+            body.advance(body.time_s + 1)
+            self.assertAlmostEqual(body.holding_n[0, 0], -30 * activation, places=5)
 
     def test_study(self):
         rows = [line.split("\t") for line in self.run_sample("study.py").splitlines()]

@@ -78,15 +78,19 @@ void add_bundles(const FaceImpl& face, std::vector<MuscleLine>& out) {
             const auto at = static_cast<std::size_t>(middle.first_point + p);
             line.path.push_back({sum / bundle.fibre_count, body_of(placed.points[at])});
         }
-        double optimal = 0;
+        double optimal = 0, slack = 0;
         for (std::size_t f = first; f < end; ++f) {
             line.f0_n += fibres[f].f0_n;
             double length = 0;
             for (std::size_t i = 0; i + 1 < placed.paths[f].size(); ++i)
                 length += (placed.paths[f][i + 1] - placed.paths[f][i]).norm();
-            optimal += length / fibres[f].rest_stretch;
+            const double sine = std::sin(fibres[f].pennation_rad), r = fibres[f].rest_stretch;
+            slack += fibres[f].tendon_fraction * length;
+            optimal += (1 - fibres[f].tendon_fraction) * length / std::sqrt(r * r - sine * sine);
         }
         line.optimal_m = optimal / bundle.fibre_count;
+        line.slack_m = slack / bundle.fibre_count;
+        line.pennation_rad = middle.pennation_rad;
         line.max_speed_hz = middle.max_speed_hz;
         out.push_back(std::move(line));
     }

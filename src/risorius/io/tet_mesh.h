@@ -9,6 +9,10 @@
 ///   .vtk, .vtu    the cell data named "tag", "region", "material", "gmsh:physical", "CellEntityIds" or "medit:ref"; 0 without them
 ///   .mesh, .ele   the reference; the attribute
 ///
+/// Files of VTK may have a field of directions of fibres: cell or point data with three components, named "fibre", "fiber", "fibres",
+/// "fibers", "fibre_direction" or "fiber_direction". Those of points are averaged over the corners of each tetrahedron, without regard to
+/// their sign.
+///
 /// Tetrahedra that are all turned the other way, as TetGen has them, are turned over. One of another orientation than the rest, or without
 /// volume, is an error.
 #pragma once
@@ -27,6 +31,8 @@ struct TetMesh {
     Tets tets;                         ///< T x 4, positive volumes
     std::vector<int> tags;             ///< of each tetrahedron
     std::map<std::string, int> names;  ///< of tags, where the file has them
+    Points fibres =
+        Points(0, 3);  ///< T x 3, of any length, also 0; without rows when the file has none
 };
 
 /// Throws Error for a mesh that is missing, unreadable, too large, empty or not finite. `file`: for TetGen either of its two files.

@@ -35,7 +35,9 @@ FibreSet::FibreSet(std::vector<FibrePoint> points, std::vector<Fibre> fibres, co
       velocity_(zajac_curves().velocity),
       velocity_table_(velocity_, -kMaxSpeed, kMaxSpeed, kCells),
       passive_table_(passive_curve(shape), 1.0, kMaxLength, kCells),
-      optimal_length_m_(points_.size(), 0.0) {
+      optimal_length_m_(points_.size(), 0.0),
+      tendon_m_(points_.size() + kTogether, 0.0),
+      thickness_m_(points_.size() + kTogether, 0.0) {
     const auto count = static_cast<int>(points_.size());
     body_place_.set_zero(count);
     for (int p = 0; p < count; ++p) {
@@ -72,7 +74,17 @@ FibreSet::FibreSet(std::vector<FibrePoint> points, std::vector<Fibre> fibres, co
             if (!(length(p) > 0))
                 throw std::invalid_argument("FibreSet: fibre " + std::to_string(f) +
                                             " has a segment without length");
-            optimal_length_m_[static_cast<std::size_t>(p)] = length(p) / fibre.rest_stretch;
+            const auto segment = static_cast<std::size_t>(p);
+            optimal_length_m_[segment] = length(p) / fibre.rest_stretch;
+            if (fibre.plain()) continue;
+            const double sine = std::sin(fibre.pennation_rad), r = fibre.rest_stretch;
+            if (!(fibre.tendon_fraction >= 0 && fibre.tendon_fraction < 1 && r > sine))
+                throw std::invalid_argument("FibreSet: fibre " + std::to_string(f) +
+                                            " has a tendon or pennation outside its range");
+            tendon_m_[segment] = fibre.tendon_fraction * length(p);
+            optimal_length_m_[segment] =
+                (length(p) - tendon_m_[segment]) / std::sqrt(r * r - sine * sine);
+            thickness_m_[segment] = optimal_length_m_[segment] * sine;
         }
     }
 }
@@ -97,6 +109,22 @@ double FibreSet::length(int segment) const {
     return std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
 }
 
+FibreSet::FibreLength FibreSet::fibre_length(const Fibre& fibre, int segment, double s) const {
+    if (fibre.plain()) return {s, 1};
+    const auto at = static_cast<std::size_t>(segment);
+    const double span = std::max(s - tendon_m_[at], 0.0);
+    const double l = std::hypot(span, thickness_m_[at]);
+    return {l, l > 0 ? span / l : 0};
+}
+
+void FibreSet::shorten(int first, Lanes& l, Lanes& slope) const {
+    const Lanes span = l - solve::load_lanes(tendon_m_.data() + first),
+                thickness = solve::load_lanes(thickness_m_.data() + first);
+    const Lanes pulled = span > 0.0 ? span : Lanes{};
+    l = solve::sqrt_lanes(pulled * pulled + thickness * thickness);
+    slope = l > 0.0 ? pulled / l : Lanes{};
+}
+
 void FibreSet::begin_step(const Points& x, const Points& expected, double h) {
     assert(h > 0);
     step_s_ = h;
@@ -111,14 +139,17 @@ void FibreSet::begin_step(const Points& x, const Points& expected, double h) {
         const double l0 = optimal_length_m_[segment];
         const double way = h * fibre.max_speed_hz * l0;
         in_step_.inverse_optimal[segment] = 1 / l0;
-        in_step_.start_m[segment] = length(p);
+        in_step_.start_m[segment] = fibre_length(fibre, p, length(p)).length_m;
         in_step_.inverse_way[segment] = 1 / way;
         in_step_.stiffness[segment] = fibre.f0_n * l0;
     });
     if (&expected != &x) place_points(expected);
     each_segment([&](const Fibre& fibre, int p, std::size_t segment) {
         in_step_.force[segment] =
-            fibre.f0_n * curves_.active(length(p) * in_step_.inverse_optimal[segment]).force;
+            fibre.f0_n * curves_
+                             .active(fibre_length(fibre, p, length(p)).length_m *
+                                     in_step_.inverse_optimal[segment])
+                             .force;
         in_step_.work[segment] = in_step_.force[segment] / in_step_.inverse_way[segment];
     });
 }
@@ -190,7 +221,7 @@ double FibreSet::add_energy(const Points& x, const Eigen::VectorXd& activation,
             const Lanes squared = dx * dx + dy * dy + dz * dz;
             const int count = std::min(kTogether, last - p);
             // A relaxed, slack segment does nothing. Most segments of most frames are like that.
-            bool acts = a != 0.0;
+            bool acts = a != 0.0 || !fibre.plain();
             for (int k = 0; k < count && !acts; ++k) {
                 const double l0 = optimal_length_m_[static_cast<std::size_t>(p + k)];
                 acts = squared[k] > l0 * l0;
@@ -198,8 +229,11 @@ double FibreSet::add_energy(const Points& x, const Eigen::VectorXd& activation,
             Lanes fraction{};  // tension / length, N/m; zero for a segment without direction
             if (acts) {
                 const Lanes l = solve::sqrt_lanes(squared);
-                const Pulls pull =
-                    step_s_ > 0 ? in_step(fibre, a, p, l) : at_rest(fibre, a, p, last, l);
+                Lanes fibre_m = l, slope{};
+                if (!fibre.plain()) shorten(p, fibre_m, slope);
+                Pulls pull = step_s_ > 0 ? in_step(fibre, a, p, fibre_m)
+                                         : at_rest(fibre, a, p, last, fibre_m);
+                if (!fibre.plain()) pull.tension_n *= slope;
                 for (int k = 0; k < count; ++k) energy += pull.energy_j[k];
                 fraction = l > 0.0 ? pull.tension_n / l : Lanes{};
                 pulls = true;
@@ -255,7 +289,7 @@ Eigen::VectorXd FibreSet::mean_stretch(const Points& x) const {
         const Fibre& fibre = fibres_[f];
         double current = 0, optimal = 0;
         for (int p = fibre.first_point; p < fibre.first_point + fibre.point_count - 1; ++p) {
-            current += length(p);
+            current += fibre_length(fibre, p, length(p)).length_m;
             optimal += optimal_length_m_[static_cast<std::size_t>(p)];
         }
         stretch[static_cast<Eigen::Index>(f)] = current / optimal;
@@ -269,17 +303,19 @@ std::vector<FibreSet::State> FibreSet::states(const Points& x,
     std::vector<State> states;
     for (const Fibre& fibre : fibres_) {
         State state;
-        double optimal = 0;
+        double optimal = 0, fibre_m = 0;
         for (int p = fibre.first_point; p < fibre.first_point + fibre.point_count - 1; ++p) {
             const double segment = length(p);
             const double l0 = optimal_length_m_[static_cast<std::size_t>(p)];
+            const FibreLength now = fibre_length(fibre, p, segment);
             state.length_m += segment;
+            fibre_m += now.length_m;
             optimal += l0;
-            state.force_n += l0 * fibre.f0_n *
-                             (activation[fibre.column] * curves_.active(segment / l0).force +
-                              curves_.passive(segment / l0).force);
+            state.force_n += l0 * fibre.f0_n * now.slope *
+                             (activation[fibre.column] * curves_.active(now.length_m / l0).force +
+                              curves_.passive(now.length_m / l0).force);
         }
-        state.stretch = state.length_m / optimal;
+        state.stretch = fibre_m / optimal;
         state.force_n /= optimal;
         states.push_back(state);
     }
@@ -293,10 +329,11 @@ std::vector<FibreSet::State> FibreSet::segment_states(const Points& x,
     for (const Fibre& fibre : fibres_)
         for (int p = fibre.first_point; p < fibre.first_point + fibre.point_count - 1; ++p) {
             State state{.length_m = length(p)};
-            state.stretch = state.length_m / optimal_length_m_[static_cast<std::size_t>(p)];
-            state.force_n =
-                fibre.f0_n * (activation[fibre.column] * curves_.active(state.stretch).force +
-                              curves_.passive(state.stretch).force);
+            const FibreLength now = fibre_length(fibre, p, state.length_m);
+            state.stretch = now.length_m / optimal_length_m_[static_cast<std::size_t>(p)];
+            state.force_n = fibre.f0_n * now.slope *
+                            (activation[fibre.column] * curves_.active(state.stretch).force +
+                             curves_.passive(state.stretch).force);
             states.push_back(state);
         }
     return states;

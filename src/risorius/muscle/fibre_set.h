@@ -9,6 +9,13 @@
 ///               v = (l - l_n) / (h vmax l0), l_n the length at the start of a step of h seconds, lam_e the expected stretch at its
 ///               end, vmax in optimal lengths per second
 ///
+/// Fibres with a tendon or pennation are shorter than their segment: with s the length of the segment and s0 that at rest
+///
+///   l = sqrt( (s - t s0)^2 + (l0 sin alpha)^2 )      t     tendon_fraction, rigid, spread evenly over the fibre
+///                                                    alpha pennation at l0
+///
+/// and T acts along the segment, multiplied by dl/ds. Without either, l = s.
+///
 /// T is the tension, N. fl and fp are the active and passive force-length curves of muscle/detail/hill_shape.h, fv is the
 /// force-velocity curve of muscle/muscle_curves.h, and Ifl, Ifp and Ifv are their integrals. E of a step is convex in l. When a
 /// motion in steps has come to rest (l = l_n, fv = 1), it has reached a static equilibrium. fl is evaluated for each segment,
@@ -46,11 +53,15 @@ struct FibrePoint {
 /// A polyline through consecutive points.
 struct Fibre {
     int first_point = 0;
-    int point_count = 0;       ///< number of points, 2 or more
-    int column = 0;            ///< index in the activation vector
-    double f0_n = 0;           ///< F0                                       [0, inf)
-    double rest_stretch = 1;   ///< lam in the rest pose: l0 = rest length / this     (0, inf)
-    double max_speed_hz = 10;  ///< vmax                               (0, inf)
+    int point_count = 0;         ///< number of points, 2 or more
+    int column = 0;              ///< index in the activation vector
+    double f0_n = 0;             ///< F0                                       [0, inf)
+    double rest_stretch = 1;     ///< lam in the rest pose        (sin alpha, inf)
+    double max_speed_hz = 10;    ///< vmax                               (0, inf)
+    double tendon_fraction = 0;  ///< t                                 [0, 1)
+    double pennation_rad = 0;    ///< alpha                             [0, pi/2)
+
+    bool plain() const { return tendon_fraction == 0 && pennation_rad == 0; }
 };
 
 /// Energy and forces of a set of fibres. An object keeps scratch arrays, so only one thread at a time may use it.
@@ -134,6 +145,13 @@ class FibreSet {
     }
     void place_points(const Points& x) const;
     double length(int segment) const;
+    /// Length of the fibres of a segment with its derivative by the length of the segment.
+    struct FibreLength {
+        double length_m, slope;
+    };
+    FibreLength fibre_length(const Fibre& fibre, int segment, double s) const;
+    /// The same for kTogether segments from `first` on.
+    void shorten(int first, solve::Lanes& l, solve::Lanes& slope) const;
     /// Segments computed together.
     static constexpr int kTogether = solve::LanesOf<double>::kWidth;
     /// Tension and energy of segments.
@@ -149,9 +167,10 @@ class FibreSet {
     std::vector<Fibre> fibres_;
     LengthCurves curves_;
     Curve velocity_;
-    CurveTable velocity_table_, passive_table_;  ///< for steps
-    std::vector<double> optimal_length_m_;       ///< l0 of the segment that begins at each point
-    double step_s_ = 0;                          ///< h; 0 outside of steps
+    CurveTable velocity_table_, passive_table_;   ///< for steps
+    std::vector<double> optimal_length_m_;        ///< l0 of the segment that begins at each point
+    std::vector<double> tendon_m_, thickness_m_;  ///< t s0 and l0 sin alpha of each segment
+    double step_s_ = 0;                           ///< h; 0 outside of steps
     /// Arrays with one number per point. It belongs to the segment that begins at the point. They have kTogether extra entries,
     /// so that kTogether numbers can be read from any point on.
     struct StepSegments {

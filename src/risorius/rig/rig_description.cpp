@@ -60,6 +60,7 @@ void visit_fields(TissueDescription& tissue, Visit visit) {
     visit("crease_shear_ratio", tissue.crease_shear_ratio, Range{1e-4, 100});
     visit("malar_shear_ratio", tissue.malar_shear_ratio, Range{1e-4, 100});
     visit("fibre_passive_strain", tissue.fibre_passive_strain, Range{0.05, 10});
+    visit("bundles", tissue.bundles, {"facial", "musculotendon"});
     visit("force_scale", tissue.force_scale, Range{0, 100});
 }
 template <typename Visit>

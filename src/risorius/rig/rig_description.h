@@ -86,6 +86,9 @@ struct TissueDescription {
     double malar_shear_ratio = 3;     ///< fat pad of the cheek, and the skin over it
     /// Strain at which a relaxed fibre, stretched, pulls with the maximum isometric force
     double fibre_passive_strain = 1.5;
+    /// Bundles of fibres: "facial", with calibrated curves and without tendon, or "musculotendon", with the curves of the volume
+    /// muscles and the tendon, pennation and length at rest of the muscle table
+    std::string bundles = "facial";
     double force_scale = 1.5;  ///< factor of the force of every muscle, in addition to its strength
 };
 

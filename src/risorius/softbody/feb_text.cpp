@@ -139,6 +139,12 @@ void write_loads(const MeshBodyDescription& description, const SoftBody& body, i
 }  // namespace
 
 std::string feb_text(const MeshBodyDescription& description) {
+    for (const MeshRegion& region : description.regions)
+        if (region.muscle)
+            throw Error(region.place, "a material without \"muscle\"", "one with it");
+    for (const FixedBox& fixed : description.fixed)
+        if (!fixed.whole())
+            throw Error(description.place + "/fixed", "boxes without \"axes\"", "one with them");
     const SoftBody body = build_mesh_body(description);
     io::XmlWriter xml;
     xml.line("<?xml version=\"1.0\" encoding=\"UTF-8\"?>");

@@ -14,6 +14,7 @@
 #include "risorius/io/read_mesh.h"
 #include "risorius/io/tet_mesh.h"
 #include "risorius/softbody/detail/read_numbers.h"
+#include "risorius/tissue/coordinate_guides.h"
 #include "risorius/tissue/gravity.h"
 #include "risorius/tissue/hyperelastic_tets.h"
 
@@ -50,7 +51,8 @@ tissue::Hyperelastic read_law(const JsonCursor& json, std::vector<std::string_vi
             law == "fibres" ? not_negative(json, "c01_pa", 0) : not_negative(json.at("c01_pa"));
     }
     if (law == "fibres") {
-        for (const char* key : {"c3_pa", "c4", "c5_pa", "straight", "along"}) keys.push_back(key);
+        for (const char* key : {"c3_pa", "c4", "c5_pa", "straight"}) keys.push_back(key);
+        if (!json.has("muscle")) keys.push_back("along");
         out.fibres.c3_pa = positive(json.at("c3_pa"));
         out.fibres.c4 = json.at("c4").number({1e-3, 100});
         out.fibres.c5_pa = not_negative(json.at("c5_pa"));
@@ -62,7 +64,8 @@ tissue::Hyperelastic read_law(const JsonCursor& json, std::vector<std::string_vi
 
 MeshRegion read_region(const JsonCursor& json) {
     MeshRegion out;
-    std::vector<std::string_view> keys{"tags", "names", "law", "bulk_pa", "density_kg_per_m3"};
+    std::vector<std::string_view> keys{"tags",  "names", "law", "bulk_pa", "density_kg_per_m3",
+                                       "muscle"};
     out.place = json.place();
     out.material = read_law(json, keys);
     json.allow_keys(keys);
@@ -72,7 +75,9 @@ MeshRegion read_region(const JsonCursor& json) {
     if (const auto names = json.find("names"))
         for (const JsonCursor& name : names->items()) out.names.push_back(name.string());
     out.density_kg_per_m3 = positive(json.at("density_kg_per_m3"));
-    if (out.material.fibres.c3_pa > 0) {
+    if (const auto muscle = json.find("muscle")) {
+        out.muscle = read_mesh_muscle(*muscle);
+    } else if (out.material.fibres.c3_pa > 0) {
         out.along = json.at("along").vec3();
         if (!(out.along.norm() > 0)) json.at("along").fail("a direction");
         out.along.normalize();
@@ -84,6 +89,36 @@ io::TetMesh tets_of(const MeshBodyDescription& description) {
     io::TetMesh mesh = io::read_tet_mesh(description.file);
     mesh.positions *= description.metres_per_unit;
     return mesh;
+}
+
+/// "x", "xy" and the like.
+std::array<bool, 3> read_axes(const JsonCursor& json) {
+    std::array<bool, 3> out{};
+    for (const char letter : json.string()) {
+        const int axis = letter - 'x';
+        if (axis < 0 || axis > 2 || out[static_cast<std::size_t>(axis)])
+            json.fail("some of the letters x, y and z, each once");
+        out[static_cast<std::size_t>(axis)] = true;
+    }
+    if (json.string().empty()) json.fail("some of the letters x, y and z, each once");
+    return out;
+}
+
+/// A number for all muscles, or one for each.
+std::vector<double> read_activation(const JsonCursor& json,
+                                    const std::vector<MeshRegion>& regions) {
+    std::size_t muscles = 0;
+    for (const MeshRegion& region : regions) muscles += region.muscle.has_value();
+    const auto given = json.find("activation");
+    if (!given) return std::vector<double>(muscles, 0.0);
+    if (muscles == 0) given->fail("none, since no material is a muscle");
+    if (!given->is_array()) return std::vector<double>(muscles, given->number({0, 1}));
+    std::vector<double> out;
+    for (const JsonCursor& one : given->items()) out.push_back(one.number({0, 1}));
+    if (out.size() != muscles)
+        given->fail("as many numbers as materials are muscles, " + std::to_string(muscles),
+                    std::to_string(out.size()));
+    return out;
 }
 
 /// The tetrahedra inside of a surface.
@@ -182,22 +217,52 @@ std::vector<std::array<int, 2>> edges_of(const Tets& tets) {
     return {edges.begin(), edges.end()};
 }
 
-std::vector<char> fixed_nodes(const MeshBodyDescription& description, const Points& rest) {
-    std::vector<char> out(static_cast<std::size_t>(rest.rows()), 0);
+std::vector<SoftBody::Support> supports_of(const MeshBodyDescription& description,
+                                           const Points& rest) {
+    std::vector<SoftBody::Support> out;
     for (std::size_t b = 0; b < description.fixed.size(); ++b) {
-        const auto& [low, high] = description.fixed[b];
-        bool any = false;
-        for (Eigen::Index i = 0; i < rest.rows(); ++i) {
-            const Vec3 at = rest.row(i).transpose();
-            if ((at.array() < low.array()).any() || (at.array() > high.array()).any()) continue;
-            out[static_cast<std::size_t>(i)] = 1;
-            any = true;
-        }
-        if (!any)
+        const FixedBox& fixed = description.fixed[b];
+        SoftBody::Support support{.axes = fixed.axes};
+        for (Eigen::Index i = 0; i < rest.rows(); ++i)
+            if (fixed.box.holds(rest.row(i).transpose()))
+                support.nodes.push_back(static_cast<int>(i));
+        if (support.nodes.empty())
             throw Error(description.place + "/fixed/" + std::to_string(b), "a box with nodes in it",
                         "none");
+        out.push_back(std::move(support));
     }
     return out;
+}
+
+/// The muscles, and in `fibres` the directions of their tetrahedra.
+std::vector<std::shared_ptr<muscle::FibreTets>> muscles_of(const MeshBodyDescription& description,
+                                                           const io::TetMesh& mesh,
+                                                           const std::vector<int>& material_of,
+                                                           Points& fibres) {
+    std::vector<std::shared_ptr<muscle::FibreTets>> out;
+    for (std::size_t r = 0; r < description.regions.size(); ++r) {
+        const auto& muscle = description.regions[r].muscle;
+        if (!muscle) continue;
+        std::vector<int> tets;
+        for (std::size_t t = 0; t < material_of.size(); ++t)
+            if (material_of[t] == static_cast<int>(r)) tets.push_back(static_cast<int>(t));
+        const Points along = fibre_directions(*muscle, mesh, tets);
+        fibres(tets, Eigen::all) = along;
+        out.push_back(std::make_shared<muscle::FibreTets>(
+            muscle->parameters, mesh.positions, mesh.tets(tets, Eigen::all), along,
+            [a = description.activation[out.size()]](double) { return a; }));
+    }
+    return out;
+}
+
+/// Stiffness of the springs that hold sliding nodes: far above that of the body.
+double guide_stiffness(const MeshBodyDescription& description, double length_m) {
+    double stiffest = 0;
+    for (const MeshRegion& region : description.regions)
+        stiffest =
+            std::max(stiffest, 4.0 / 3 * region.material.shear_pa() + region.material.bulk_pa +
+                                   (region.muscle ? region.muscle->parameters.tension_pa : 0));
+    return 1e5 * stiffest * length_m;
 }
 
 }  // namespace
@@ -208,7 +273,7 @@ bool is_mesh_body(const JsonCursor& json) {
 }
 
 MeshBodyDescription read_mesh_body(const JsonCursor& json) {
-    json.allow_keys({"kind", "mesh", "materials", "fixed", "gravity_m_per_s2"});
+    json.allow_keys({"kind", "mesh", "materials", "fixed", "gravity_m_per_s2", "activation"});
     json.at("kind").one_of({"mesh"});
     MeshBodyDescription out;
     out.place = json.place();
@@ -227,10 +292,12 @@ MeshBodyDescription read_mesh_body(const JsonCursor& json) {
     if (out.regions.empty()) json.at("materials").fail("at least one material", "none");
     if (const auto fixed = json.find("fixed"))
         for (const JsonCursor& box : fixed->items()) {
-            box.allow_keys({"low_m", "high_m"});
-            out.fixed.emplace_back(box.at("low_m").vec3(), box.at("high_m").vec3());
+            box.allow_keys({"low_m", "high_m", "axes"});
+            out.fixed.push_back({read_box(box)});
+            if (const auto axes = box.find("axes")) out.fixed.back().axes = read_axes(*axes);
         }
     if (const auto gravity = json.find("gravity_m_per_s2")) out.gravity_m_per_s2 = gravity->vec3();
+    out.activation = read_activation(json, out.regions);
     return out;
 }
 
@@ -248,6 +315,7 @@ SoftBody build_mesh_body(const MeshBodyDescription& description) {
             description
                 .regions[static_cast<std::size_t>(matter.material_of[static_cast<std::size_t>(t)])]
                 .along.transpose();
+    const auto muscles = muscles_of(description, mesh, matter.material_of, matter.fibres);
     auto term = std::make_shared<tissue::HyperelasticTets>(std::move(matter));
     const tissue::HyperelasticBody& built = term->body();
 
@@ -259,19 +327,36 @@ SoftBody build_mesh_body(const MeshBodyDescription& description) {
             term->rest_volumes()[t] * description.regions[region].density_kg_per_m3 / 4;
         for (int k = 0; k < 4; ++k) mass_kg[built.tets(t, k)] += share;
     }
-    const std::vector<char> fixed = fixed_nodes(description, built.rest);
+    std::vector<SoftBody::Support> supports = supports_of(description, built.rest);
+    std::vector<char> fixed(static_cast<std::size_t>(built.rest.rows()), 0);
+    std::vector<tissue::CoordinateGuides::Guide> guides;
+    for (const SoftBody::Support& support : supports)
+        for (const int node : support.nodes) {
+            if (support.whole()) fixed[static_cast<std::size_t>(node)] = 1;
+            for (int axis = 0; axis < 3 && !support.whole(); ++axis)
+                if (support.axes[static_cast<std::size_t>(axis)])
+                    guides.push_back({node, axis, built.rest(node, axis)});
+        }
+    const double length_m =
+        (built.rest.colwise().maxCoeff() - built.rest.colwise().minCoeff()).maxCoeff();
+    const auto slides =
+        std::make_shared<tissue::CoordinateGuides>(guides, guide_stiffness(description, length_m));
     solve::MotionSystem system(mass_kg, fixed);
     system.add(term);
+    for (const auto& muscle : muscles) system.add(muscle);
+    if (!guides.empty()) system.add(slides);
     system.add(std::make_shared<tissue::Gravity>(mass_kg, description.gravity_m_per_s2));
     SoftBody body{.kind = Kind::kSolid,
                   .grid = {0, 0, 0},
                   .rest = built.rest,
                   .system = std::move(system),
+                  .length_scale_m = length_m,
                   .surface = boundary_of(built.tets),
                   .wires = edges_of(built.tets),
-                  .tets = term};
-    body.length_scale_m =
-        (body.rest.colwise().maxCoeff() - body.rest.colwise().minCoeff()).maxCoeff();
+                  .tets = term,
+                  .muscles = muscles,
+                  .supports = std::move(supports),
+                  .slides = slides};
     body.weight_n = mass_kg.sum() * description.gravity_m_per_s2.norm();
     for (std::size_t i = 0; i < fixed.size(); ++i)
         if (fixed[i]) body.fixed.push_back(static_cast<int>(i));

@@ -14,15 +14,19 @@
 /// - "tags" (numbers) and "names" say which tetrahedra have the material. One material without both is that of all others.
 /// - Laws and their constants are those of tissue/hyperelastic.h: "neo-hookean" (c10_pa), "mooney-rivlin" (c10_pa, c01_pa), "ogden"
 ///   ("terms": [[modulus_pa, exponent], ...]), "fibres" (c10_pa, c01_pa, c3_pa, c4, c5_pa, straight, along).
-/// - "fixed": nodes in any of the boxes do not move.
+/// - "muscle" makes a material contract along fibres (detail/mesh_muscle.h). "activation" of the body, 0..1, is a number for all muscles, or a list
+///   of one for each material with "muscle".
+/// - "fixed": nodes in any of the boxes do not move; with "axes": "x", "xy" or the like, they keep only these coordinates and slide.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "risorius/core/json_cursor.h"
+#include "risorius/softbody/detail/mesh_muscle.h"
 #include "risorius/softbody/soft_body.h"
 #include "risorius/tissue/hyperelastic.h"
 
@@ -34,10 +38,18 @@ struct MeshRegion {
     std::vector<std::string> names;
     tissue::Hyperelastic material;
     double density_kg_per_m3 = 1000;  ///< (0, inf)
-    Vec3 along = Vec3::UnitX();       ///< of the fibres at rest, a unit vector
+    Vec3 along = Vec3::UnitX();  ///< of the fibres at rest, a unit vector; not used for muscles
+    std::optional<MeshMuscle> muscle = {};
     std::string place;
 
     bool is_rest() const { return tags.empty() && names.empty(); }
+};
+
+/// Nodes that do not move, or keep some coordinates.
+struct FixedBox {
+    Box box;
+    std::array<bool, 3> axes{true, true, true};
+    bool whole() const { return axes[0] && axes[1] && axes[2]; }
 };
 
 struct MeshBodyDescription {
@@ -46,7 +58,8 @@ struct MeshBodyDescription {
     double metres_per_unit = 1;
     double spacing_m = 0;  ///< of the tetrahedra that fill a surface; 0: the file has tetrahedra
     std::vector<MeshRegion> regions;
-    std::vector<std::pair<Vec3, Vec3>> fixed;  ///< lowest and highest corner, m
+    std::vector<FixedBox> fixed;
+    std::vector<double> activation;  ///< of each region that is a muscle
     Vec3 gravity_m_per_s2{0, 0, -9.81};
 };
 

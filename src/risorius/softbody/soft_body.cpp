@@ -226,6 +226,21 @@ solve::MotionState SoftBody::start() const {
     return state;
 }
 
+Vec3 SoftBody::holding_n(const Support& support, const Points& x) const {
+    Vec3 sum = Vec3::Zero();
+    if (!support.whole()) {
+        for (const int node : support.nodes)
+            for (int axis = 0; axis < 3; ++axis)
+                if (support.axes[static_cast<std::size_t>(axis)])
+                    sum[axis] += slides->force_n({node, axis, rest(node, axis)}, x);
+        return sum;
+    }
+    Points force;
+    system.force(0, x, Points::Zero(x.rows(), 3), force);
+    for (const int node : support.nodes) sum -= force.row(node).transpose();
+    return sum;
+}
+
 double SoftBody::volume(const Points& x) const {
     assert(kind == Kind::kSolid);
     if (tets) return tets->volume(x);

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "risorius/core/types.h"
+#include "risorius/muscle/fibre_tets.h"
 #include "risorius/softbody/body_description.h"
 #include "risorius/solve/motion_system.h"
+#include "risorius/tissue/coordinate_guides.h"
 #include "risorius/tissue/hyperelastic_tets.h"
 #include "risorius/tissue/solid_material.h"
 
@@ -33,6 +35,18 @@ struct SoftBody {
     std::vector<int> fixed = {};                 ///< indices of the fixed nodes
     /// The solid of a body that is a mesh (mesh_body.h); null for those on grids
     std::shared_ptr<const tissue::HyperelasticTets> tets = {};
+    std::vector<std::shared_ptr<muscle::FibreTets>> muscles = {};  ///< of such a body
+
+    /// Nodes of a mesh that do not move, or keep some coordinates: an entry of "fixed".
+    struct Support {
+        std::vector<int> nodes = {};
+        std::array<bool, 3> axes{true, true, true};
+        bool whole() const { return axes[0] && axes[1] && axes[2]; }
+    };
+    std::vector<Support> supports = {};                           ///< only of a mesh
+    std::shared_ptr<const tissue::CoordinateGuides> slides = {};  ///< holds the coordinates
+    /// The force with which a support holds the body at rest at x, N.
+    Vec3 holding_n(const Support& support, const Points& x) const;
 
     /// Returns the initial state: the rest shape without velocity at t = 0.
     solve::MotionState start() const;

@@ -73,6 +73,7 @@ struct Result {
     EquilibriumRun equilibrium;
     double volume_change_percent = kUnmeasured, max_move_m = 0;
     Extent extent{kUnmeasured, kUnmeasured};
+    std::vector<double> holding_n, fibre_stretch;  ///< of the supports and muscles of a mesh
 };
 
 /// Removes columns without any measured value.
@@ -117,6 +118,10 @@ void run_equilibrium(const JsonCursor& experiment, const RunOptions& options, Ou
             result.volume_change_percent = 100 * (body.volume(x) / body.volume(body.rest) - 1);
         result.max_move_m = (x - body.rest).rowwise().norm().maxCoeff();
         if (axis >= 0) result.extent = extent_along(body, x, axis);
+        for (const softbody::SoftBody::Support& support : body.supports)
+            result.holding_n.push_back(body.holding_n(support, x).norm());
+        for (const auto& muscle : body.muscles)
+            result.fibre_stretch.push_back(muscle->mean_stretch(x));
         progress.done(1, one.name);
     });
 
@@ -141,6 +146,12 @@ void run_equilibrium(const JsonCursor& experiment, const RunOptions& options, Ou
         outcome.measured.add("greatest_move_m/" + name, "m", result.max_move_m);
         outcome.measured.add("force_ratio/" + name, "", equilibrium.force_ratio);
         outcome.measured.add("diverged/" + name, "", equilibrium.report.diverged ? 1 : 0);
+        for (std::size_t k = 0; k < result.holding_n.size(); ++k)
+            outcome.measured.add("holding_n/" + name + "/" + std::to_string(k), "N",
+                                 result.holding_n[k]);
+        for (std::size_t k = 0; k < result.fibre_stretch.size(); ++k)
+            outcome.measured.add("fibre_stretch/" + name + "/" + std::to_string(k), "",
+                                 result.fibre_stretch[k]);
         table.row_names.push_back(name);
         table.rows.push_back({result.extent.length_ratio, result.extent.drift_ratio,
                               result.volume_change_percent, result.max_move_m,

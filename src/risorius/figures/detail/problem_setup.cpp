@@ -10,36 +10,25 @@
 
 namespace risorius::figures {
 
-/// Constant forces, and the guides, as an energy term.
-class ProblemSetup::Supports : public solve::EnergyTerm {
+namespace {
+
+/// Constant forces as an energy term.
+class Loads : public solve::EnergyTerm {
   public:
-    explicit Supports(const ProblemSetup& of) : of_(of) { loads_.set(of.loads); }
+    explicit Loads(const std::vector<tissue::DeadLoads::Load>& loads) { loads_.set(loads); }
     double add_potential(const solve::ImplicitStep&, const Points& x,
                          Points& gradient) const override {
-        double energy = loads_.add_energy(x, gradient);
-        for (const Guide& guide : of_.guides_) {
-            const double away = x(guide.node, guide.axis) - of_.rest()(guide.node, guide.axis);
-            energy += 0.5 * of_.guide_n_per_m_ * away * away;
-            gradient(guide.node, guide.axis) += of_.guide_n_per_m_ * away;
-        }
-        return energy;
+        return loads_.add_energy(x, gradient);
     }
     void add_hessian(const solve::ImplicitStep&, const Points&, solve::Curvature,
-                     solve::HessianBuilder& hessian) const override {
-        for (const Guide& guide : of_.guides_) {
-            Mat3 block = Mat3::Zero();
-            block(guide.axis, guide.axis) = of_.guide_n_per_m_;
-            hessian.add(guide.node, guide.node, block);
-        }
-    }
-    void add_metric(double, solve::MetricBuilder& metric) const override {
-        for (const Guide& guide : of_.guides_) metric.add_diagonal(guide.node, of_.guide_n_per_m_);
-    }
+                     solve::HessianBuilder&) const override {}
+    void add_metric(double, solve::MetricBuilder&) const override {}
 
   private:
-    const ProblemSetup& of_;
     tissue::DeadLoads loads_;
 };
+
+}  // namespace
 
 ProblemSetup::ProblemSetup(const tissue::GridShape& grid, const tissue::RestShape& rest,
                            const KnownMaterial& material)
@@ -68,7 +57,8 @@ void ProblemSetup::settle() {
     const long n = x.rows();
     solve::MotionSystem system(Eigen::VectorXd::Ones(n), fixed);
     system.add(solid);
-    system.add(std::make_shared<Supports>(*this));
+    system.add(std::make_shared<Loads>(loads));
+    system.add(std::make_shared<tissue::CoordinateGuides>(guides_, guide_n_per_m_));
     const double size = (rest().colwise().maxCoeff() - rest().colwise().minCoeff()).maxCoeff();
     const Points start = x;
     const solve::ImplicitStep forever{0, std::numeric_limits<double>::infinity(), start};

@@ -10,6 +10,7 @@
 #include "risorius/figures/detail/known_problems.h"
 #include "risorius/solve/energy_term.h"
 #include "risorius/tissue/cell_body.h"
+#include "risorius/tissue/coordinate_guides.h"
 #include "risorius/tissue/dead_loads.h"
 #include "risorius/tissue/grid_shape.h"
 
@@ -29,7 +30,7 @@ struct ProblemSetup {
     const Points& rest() const { return body.rest; }
     void fix(int node) { fixed[static_cast<std::size_t>(node)] = 1; }
     /// Keeps one coordinate of a node, by a spring that is so stiff that it hardly gives way.
-    void guide(int node, int axis) { guides_.push_back({node, axis}); }
+    void guide(int node, int axis) { guides_.push_back({node, axis, body.rest(node, axis)}); }
     /// Shares `force` among the nodes of a plane of a1 as a traction that is the same everywhere does.
     void load_plane(const tissue::GridShape& grid, int plane, const Vec3& force);
 
@@ -39,12 +40,8 @@ struct ProblemSetup {
     Points holding() const;
 
   private:
-    struct Guide {
-        int node, axis;
-    };
-    class Supports;
     double guide_n_per_m_ = 0;
-    std::vector<Guide> guides_;
+    std::vector<tissue::CoordinateGuides::Guide> guides_;
 };
 
 }  // namespace risorius::figures

@@ -13,6 +13,7 @@
 
 #include "risorius/core/json_text.h"
 #include "risorius/core/text_lines.h"
+#include "risorius/io/detail/base64_digit.h"
 #include "risorius/io/detail/mesh_limits.h"
 
 namespace risorius::io::detail {
@@ -110,15 +111,6 @@ int width_of(const std::string& type) {
     return 0;
 }
 
-int digit_of(char c) {
-    if (c >= 'A' && c <= 'Z') return c - 'A';
-    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-    if (c >= '0' && c <= '9') return c - '0' + 52;
-    if (c == '+' || c == '-') return 62;
-    if (c == '/' || c == '_') return 63;
-    return -1;
-}
-
 }  // namespace
 
 /// Equally spaced numbers in memory.
@@ -154,7 +146,7 @@ std::vector<Byte> bytes_of_data_uri(const std::string& uri, const JsonCursor& pl
     std::uint32_t bits = 0;
     int count = 0;
     for (std::size_t i = comma + 1; i < uri.size() && uri[i] != '='; ++i) {
-        const int digit = digit_of(uri[i]);
+        const int digit = base64_digit(uri[i]);
         if (digit < 0) place.fail("letters of base64", "another");
         bits = (bits << 6 | static_cast<std::uint32_t>(digit)) & 0xffffff;
         if (count += 6; count >= 8) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Unpacks blocks that zlib packed, as those of compressed files of VTK. Sources: RFC 1950 (zlib), RFC 1951 (deflate).
+/// Unpacks blocks that zlib packed, as those of compressed files of VTK.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 namespace risorius::io::detail {
 
 /// Appends what `packed` holds to `out`. Returns an empty text, or what is wrong with the block: also when it holds more than `most_bytes`
-/// or another checksum.
+/// or another checksum. No more memory is asked for than is filled.
 std::string inflate(std::string_view packed, std::size_t most_bytes, std::string& out);
 
 }  // namespace risorius::io::detail

@@ -98,6 +98,13 @@ bool is_tag_name(std::string_view name) {
     return false;
 }
 
+bool is_fibre_name(std::string_view name) {
+    for (const char* known :
+         {"fibre", "fiber", "fibres", "fibers", "fibre_direction", "fiber_direction"})
+        if (name == known) return true;
+    return false;
+}
+
 int tag_of(double value) {
     const bool whole =
         value == std::floor(value) && std::abs(value) <= std::numeric_limits<int>::max();

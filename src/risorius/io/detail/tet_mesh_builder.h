@@ -54,6 +54,8 @@ TetMesh read_tetgen(std::string_view nodes, const std::string& nodes_name, std::
 
 /// Whether cell data of VTK with this name are tags.
 bool is_tag_name(std::string_view name);
+/// Whether data of VTK with this name are directions of fibres.
+bool is_fibre_name(std::string_view name);
 /// The tag that a number in a file is; numbers that are no integers of 32 bits are 0.
 int tag_of(double value);
 

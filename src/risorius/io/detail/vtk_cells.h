@@ -3,6 +3,7 @@
 /// An unstructured grid of VTK as its files hold it, and the tetrahedra in it.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,16 @@ struct VtkCells {
     std::vector<double> points;                 ///< three coordinates each
     std::vector<double> connectivity, offsets;  ///< offsets begin with 0: one more than cells
     std::vector<double> types;
-    std::vector<double> tags;  ///< of the cells, or empty
+    std::vector<double> tags;                       ///< of the cells, or empty
+    std::vector<double> cell_fibres, point_fibres;  ///< three components each, or empty
 
     /// Throws Error when the parts do not fit together.
     TetMesh finish();
 
   private:
+    void check_counts() const;
+    Vec3 fibre(std::size_t cell, const std::array<long long, 4>& nodes) const;
+
     std::string name_;
 };
 

@@ -107,7 +107,8 @@ class LegacyReader {
         } else if (key == "vectors" || key == "normals" || key == "tensors") {
             const std::string name(in_.word());
             const Scalar of = type();
-            numbers((key == "tensors" ? 9 : 3) * rows_, of, name);
+            const std::size_t components = key == "tensors" ? 9 : 3;
+            keep(name, components, numbers(components * rows_, of, name));
         } else if (key == "field") {
             in_.word();
             const std::size_t arrays = in_.count("arrays", 4, kMostVertices);
@@ -140,7 +141,10 @@ class LegacyReader {
     }
 
     void keep(const std::string& name, std::size_t components, std::vector<double> values) {
-        if (of_cells_ && components == 1 && is_tag_name(name)) cells_.tags = std::move(values);
+        if (components == 3 && is_fibre_name(name))
+            (of_cells_ ? cells_.cell_fibres : cells_.point_fibres) = std::move(values);
+        else if (of_cells_ && components == 1 && is_tag_name(name))
+            cells_.tags = std::move(values);
     }
 
     void read_cells() {
@@ -182,10 +186,7 @@ constexpr double kVtkTetra = 10, kVtkQuadraticTetra = 24;
 
 }  // namespace
 
-TetMesh VtkCells::finish() {
-    TetMeshBuilder mesh(name_);
-    for (std::size_t i = 0; i + 2 < points.size(); i += 3)
-        mesh.add_node(static_cast<long long>(i / 3), {points[i], points[i + 1], points[i + 2]});
+void VtkCells::check_counts() const {
     const std::size_t count = types.size();
     if (count > 0 && offsets.size() != count + 1)
         throw Error(name_, "as many types as cells",
@@ -194,7 +195,39 @@ TetMesh VtkCells::finish() {
     if (!tags.empty() && tags.size() != count)
         throw Error(name_, "a tag for each of " + std::to_string(count) + " cells",
                     std::to_string(tags.size()));
-    for (std::size_t c = 0; c < count; ++c) {
+    if (!cell_fibres.empty() && cell_fibres.size() != 3 * count)
+        throw Error(name_, "a fibre for each of " + std::to_string(count) + " cells",
+                    std::to_string(cell_fibres.size() / 3));
+    if (!point_fibres.empty() && point_fibres.size() != points.size())
+        throw Error(name_, "a fibre for each of " + std::to_string(points.size() / 3) + " points",
+                    std::to_string(point_fibres.size() / 3));
+}
+
+/// The direction in a tetrahedron. Those of points may point either way along the fibre.
+Vec3 VtkCells::fibre(std::size_t cell, const std::array<long long, 4>& nodes) const {
+    const auto at = [](const std::vector<double>& values, std::size_t i) {
+        return Vec3(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+    };
+    if (!cell_fibres.empty()) return at(cell_fibres, cell);
+    Vec3 sum = Vec3::Zero();
+    for (const long long node : nodes) {
+        const auto i = static_cast<std::size_t>(node);
+        if (3 * i + 2 >= point_fibres.size())
+            return Vec3::Zero();  // an unknown node: told by the builder
+        const Vec3 one = at(point_fibres, i);
+        sum += one.dot(sum) < 0 ? Vec3(-one) : one;
+    }
+    return sum;
+}
+
+TetMesh VtkCells::finish() {
+    check_counts();
+    const bool has_fibres = !cell_fibres.empty() || !point_fibres.empty();
+    std::vector<Vec3> fibres;
+    TetMeshBuilder mesh(name_);
+    for (std::size_t i = 0; i + 2 < points.size(); i += 3)
+        mesh.add_node(static_cast<long long>(i / 3), {points[i], points[i + 1], points[i + 2]});
+    for (std::size_t c = 0; c < types.size(); ++c) {
         const std::string cell = name_ + ", cell " + std::to_string(c + 1);
         if (types[c] == kVtkQuadraticTetra)
             throw Error(cell, "linear tetrahedra with 4 nodes", "a quadratic one with 10");
@@ -212,8 +245,16 @@ TetMesh VtkCells::finish() {
             nodes[k] = static_cast<long long>(node);
         }
         mesh.add_tet(nodes, tags.empty() ? 0 : tag_of(tags[c]));
+        if (!has_fibres) continue;
+        fibres.push_back(fibre(c, nodes));
+        if (!fibres.back().allFinite())
+            throw Error(cell, "a finite direction of fibres", "another");
     }
-    return mesh.finish();
+    TetMesh out = mesh.finish();
+    out.fibres.resize(static_cast<Eigen::Index>(fibres.size()), 3);
+    for (std::size_t t = 0; t < fibres.size(); ++t)
+        out.fibres.row(static_cast<Eigen::Index>(t)) = fibres[t].transpose();
+    return out;
 }
 
 TetMesh read_legacy_vtk(std::string_view bytes, const std::string& name) {

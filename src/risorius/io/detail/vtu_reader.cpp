@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Unstructured grids of VTK in XML: text, base64 and raw blocks, also packed by zlib. Source: VTK File Formats, in The VTK User's Guide, Kitware, 11th edition, 2010.
+#include <algorithm>
 #include <bit>
 #include <map>
 #include <optional>
 
 #include "risorius/core/error.h"
+#include "risorius/io/detail/base64_digit.h"
 #include "risorius/io/detail/inflate.h"
 #include "risorius/io/detail/mesh_limits.h"
 #include "risorius/io/detail/mesh_scanner.h"
@@ -35,24 +37,11 @@ std::string decoded_base64(std::string_view text, std::size_t most_bytes) {
     std::uint32_t bits = 0;
     int letters = 0, padding = 0;
     for (const char c : text) {
-        int value = 0;
-        if (c >= 'A' && c <= 'Z')
-            value = c - 'A';
-        else if (c >= 'a' && c <= 'z')
-            value = c - 'a' + 26;
-        else if (c >= '0' && c <= '9')
-            value = c - '0' + 52;
-        else if (c == '+')
-            value = 62;
-        else if (c == '/')
-            value = 63;
-        else if (c == '=')
-            ++padding;
-        else if (c == ' ' || c == '\n' || c == '\r' || c == '\t')
-            continue;
-        else
-            break;
-        bits = (bits << 6) | static_cast<std::uint32_t>(value);
+        if (c == ' ' || c == '\n' || c == '\r' || c == '\t') continue;
+        const int digit = base64_digit(c);
+        if (digit < 0 && c != '=') break;
+        padding += c == '=';
+        bits = (bits << 6) | static_cast<std::uint32_t>(std::max(digit, 0));
         if (++letters < 4) continue;
         for (int k = 2; k >= padding && k >= 0; --k)
             out += static_cast<char>(bits >> (8 * k) & 255);
@@ -176,6 +165,9 @@ class VtuReader {
             cells_.types = values(cell_count_);
         } else if (section_ == "CellData" && is_tag_name(name)) {
             cells_.tags = values(cell_count_);
+        } else if (attribute("NumberOfComponents") == "3" && is_fibre_name(name)) {
+            if (section_ == "CellData") cells_.cell_fibres = values(3 * cell_count_);
+            if (section_ == "PointData") cells_.point_fibres = values(3 * point_count_);
         }
     }
 

@@ -19,6 +19,8 @@
 /// ns and LengthCurves 30 ns.
 #pragma once
 
+#include <vector>
+
 #include "risorius/muscle/detail/curve.h"
 
 namespace risorius::muscle {
@@ -29,6 +31,8 @@ struct HillShape {
     double passive_strain = 0.7;    ///< strain at which passive f is 1           (0, inf)
     double passive_exponent = 4.0;  ///< steepness of the passive curve           (0, inf)
     double passive_linear = 1.5;    ///< straight beyond this times passive_strain   (0, inf)
+    /// The set of curves of the volume muscles, Zajac's with the given passive strain, in place of all this (muscle_curves.h)
+    bool zajac = false;
 };
 
 Curve active_curve(const HillShape& shape);   ///< active force-length curve; integral 0 at l = 1
@@ -48,6 +52,7 @@ class LengthCurves {
     double passive_slope(double l) const;  ///< slope of the passive force
 
   private:
+    std::vector<Curve> published_;  ///< active and passive; empty for the forms of this file
     double inverse_width_, width_integral_;
     double inverse_strain_, exponent_, inverse_exponent_, knee_, inverse_full_, strain_over_full_;
 };

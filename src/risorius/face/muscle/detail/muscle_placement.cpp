@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "risorius/face/anatomy/detail/tissue_locator.h"
 #include "risorius/geom/polyline.h"
@@ -124,6 +125,12 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
             fibre.point_count = static_cast<int>(points.size());
             fibre.column = column;
             fibre.max_speed_hz = muscle->max_speed_hz;
+            if (rig.tissue.bundles == "musculotendon") {
+                const double fibre_m = muscle->rest_stretch * muscle->optimal_length_m;
+                fibre.rest_stretch = muscle->rest_stretch;
+                fibre.pennation_rad = muscle->pennation_deg * std::numbers::pi / 180;
+                fibre.tendon_fraction = muscle->tendon_slack_m / (muscle->tendon_slack_m + fibre_m);
+            }
             out.points.insert(out.points.end(), points.begin(), points.end());
             out.fibres.push_back(fibre);
             out.paths.push_back(places);

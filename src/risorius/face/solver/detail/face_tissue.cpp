@@ -57,6 +57,7 @@ FaceTissue::FaceTissue(const rig::Head& head, const rig::RigDescription& rig, co
     build_tissue();
     build_skin();
     hill_.passive_strain = rig_.tissue.fibre_passive_strain;
+    hill_.zajac = rig_.tissue.bundles == "musculotendon";
     muscles_ = place_muscles(head_, rig_, shell_, mesh_);
     fibres_.emplace(muscles_.points, muscles_.fibres, mesh_.nodes, hill_);
     lip_drive_.emplace(head_, rig_, shell_, mesh_, attachments_);
