@@ -166,10 +166,15 @@ int try_each(int number) {
     if (std::sscanf(setting("FAULT_PART").c_str(), "%d/%d", &part, &of) == 2 &&
         (number - part) % of != 0)
         return 0;
+    std::vector<int> faults;
     const std::string list = setting("FAULT_LIST") + ",";
-    for (std::size_t at = 0; at < list.size(); at = list.find(',', at) + 1) {
-        const int fault = std::atoi(list.c_str() + at);
-        if (fault == 0 || !continue_in_copy(number, fault)) continue;
+    for (std::size_t at = 0; at < list.size(); at = list.find(',', at) + 1)
+        faults.push_back(std::atoi(list.c_str() + at));
+    const std::string turn = setting("FAULT_TURN");
+    if (!turn.empty())
+        faults = {faults[static_cast<std::size_t>(number + std::stoi(turn)) % faults.size()]};
+    for (const int fault : faults) {
+        if (!continue_in_copy(number, fault)) continue;
         if (fault > 0) return fault;
         ::kill(::getpid(), -fault);
         return 0;
@@ -178,6 +183,12 @@ int try_each(int number) {
 }
 
 }  // namespace risorius::fault
+
+/// A copy gives no memory back: that would cost more than all else that it does at its end, as each page would be copied first.
+extern "C" void __libc_free(void* memory);
+extern "C" void free(void* memory) {
+    if (!risorius::fault::is_copy()) __libc_free(memory);
+}
 
 /// Codecs work with one thread where processes are copied: a copy would wait for the others.
 extern "C" int avcodec_open2(AVCodecContext* context, const AVCodec* codec,

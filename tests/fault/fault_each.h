@@ -7,6 +7,7 @@
 ///                 and a file of /proc with the mounts that the copy saw. Its name is "-" for SIGKILL, which needs no copy. The process
 ///                 goes on when "answered" has a line.
 ///   FAULT_LIST    the faults: values of errno, and signals with a minus, such as "28,5,-9"
+///   FAULT_TURN    a number: only one fault of the list for each operation, the next one for the next operation; counted from this one
 ///   FAULT_PART    "2/5": only every fifth operation from the second on
 ///
 /// A copy has only the thread that was at the operation. So the program must be told to work with one; codecs have one by FAULT_ONE_THREAD,

@@ -9,6 +9,7 @@ hidden file beside it. Prints the number of operations and runs of each command.
     io_errors.py PROGRAM LIBRARY --each       every operation with one fault, which changes from one to the next
     io_errors.py PROGRAM LIBRARY --all        every operation with every fault, which takes hours
     io_errors.py PROGRAM LIBRARY --copies     the same in minutes: the run is copied at each operation, see fault_each.h; needs root
+    io_errors.py ... --copies --turn 0        with one fault for each operation, which changes from one to the next; 0 to 5: all of them
     io_errors.py ... --part 2/5               of these, every fifth from the second on: the parts may run one after the other
 """
 import argparse
@@ -223,9 +224,9 @@ ALONE = {"FAULT_ONE_THREAD": "1", "LP_NUM_THREADS": "0"}
 
 
 class Copies(Loop):
-    """Tries each fault in a copy of one run. States that differ only in the bytes of hidden files are run once more once."""
+    """Tries each fault in a copy of one run. States that the next run must treat alike are run once more once."""
 
-    def each(self, names, part):
+    def each(self, names, part, turn):
         chosen = [(settings, name) for settings, name in all_faults() if not names or name in names]
         numbers = {int(s.get("FAULT_ERROR", 0)) or -int(s["FAULT_SIGNAL"]): name for s, name in chosen}
         begin, total = time.monotonic(), 0
@@ -236,7 +237,7 @@ class Copies(Loop):
             (each / "seen").mkdir(parents=True)
             for pipe in ("asked", "answered"):
                 os.mkfifo(each / pipe)
-            child = multiprocessing.Process(target=self.copied_run, args=(out, each, numbers, part))
+            child = multiprocessing.Process(target=self.copied_run, args=(out, each, numbers, part, turn))
             child.start()
             # Both ends of each pipe are open, so that nobody waits for the other.
             asked, answered = (os.open(each / pipe, os.O_RDWR) for pipe in ("asked", "answered"))
@@ -264,9 +265,10 @@ class Copies(Loop):
               f"{self.broken} broken promises, in {time.monotonic() - begin:.0f} s", flush=True)
         return self.broken
 
-    def copied_run(self, out, each, numbers, part):
+    def copied_run(self, out, each, numbers, part, turn):
         done = run(self.program, self.command.new, out, self.fault(
-            out, FAULT_EACH=str(each), FAULT_LIST=",".join(map(str, numbers)), FAULT_PART="/".join(map(str, part))))
+            out, FAULT_EACH=str(each), FAULT_LIST=",".join(map(str, numbers)), FAULT_PART="/".join(map(str, part)),
+            **({} if turn is None else {"FAULT_TURN": str(turn)})))
         (each / "asked").write_text("end\n")
         if done.returncode != 0:
             print(done.stderr.decode(errors="replace"), flush=True)
@@ -289,8 +291,11 @@ class Copies(Loop):
         where = f"{numbers[fault]} at operation {number}, {'with' if with_former else 'without'} a former output"
         errors = changes / "errors"
         files, hidden = self.judge(out, with_former, code, errors.read_bytes()[-500:] if errors.exists() else b"", where)
-        # The random letters of private folders do not count.
-        names = sorted("/".join("." if part.startswith(".risorius-") else part for part in name.split("/")) for name in hidden)
+        # The random letters of private folders do not count. Without a journal, all that is in one is removed alike.
+        parts = [["." if part.startswith(".risorius-") else part for part in name.split("/")] for name in hidden]
+        if not any(part[-1] == "journal" for part in parts):
+            parts = [part[:part.index(".") + 2] if "." in part else part for part in parts]
+        names = sorted({"/".join(part) for part in parts})
         key = hashlib.sha256(json.dumps([files, names]).encode()).hexdigest()
         if not (each / "seen" / key).exists():
             (each / "seen" / key).touch()
@@ -308,6 +313,7 @@ def main():
     parser.add_argument("--all", action="store_true")
     parser.add_argument("--each", action="store_true")
     parser.add_argument("--copies", action="store_true")
+    parser.add_argument("--turn", type=int)
     parser.add_argument("--only", default="render,head", help="commands: render,head,batch,shapes,fit")
     parser.add_argument("--part", default="1/1", type=lambda text: [int(number) for number in text.split("/")])
     parser.add_argument("--faults", default="", help="such as ENOSPC,SIGKILL; default: all")
@@ -323,7 +329,7 @@ def main():
             if arguments.copies:
                 # Libraries may compute other last bits with one thread: all runs have one.
                 os.environ.update(ALONE, LD_PRELOAD=str(places[1]))
-                broken += Copies(*places).each(arguments.faults, arguments.part)
+                broken += Copies(*places).each(arguments.faults, arguments.part, arguments.turn)
             else:
                 broken += Loop(*places).all(arguments.all, arguments.each, arguments.faults, arguments.part)
     sys.exit(1 if broken else 0)

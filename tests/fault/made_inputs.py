@@ -82,7 +82,7 @@ class Sweep:
             shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir()
         words = [os.fspath(path) if w == "{f}" else w.replace("{o}", str(out)) for w in COMMANDS[name].split()]
-        environment = {**os.environ, "RISORIUS_DATA": str(ROOT), "TMPDIR": str(temporary), "XDG_RUNTIME_DIR": str(temporary)}
+        environment = {**os.environ, "RISORIUS_DATA": str(ROOT), "TMPDIR": str(temporary)}
         with open(self.base / "stdout", "w+b") as output, open(self.base / "stderr", "w+b") as errors:
             begin = time.monotonic()
             child = subprocess.Popen([self.program, *words, "--json"], stdin=subprocess.DEVNULL, stdout=output, stderr=errors, cwd=work, env=environment)
