@@ -290,7 +290,8 @@ class Copies(Loop):
         self.broken = self.more = 0
         where = f"{numbers[fault]} at operation {number}, {'with' if with_former else 'without'} a former output"
         errors = changes / "errors"
-        files, hidden = self.judge(out, with_former, code, errors.read_bytes()[-500:] if errors.exists() else b"", where)
+        files, hidden = self.judge(out, with_former, code, errors.read_bytes()[-500:] if errors.exists() else b"",
+            where)
         # The random letters of private folders do not count. Without a journal, all that is in one is removed alike.
         parts = [["." if part.startswith(".risorius-") else part for part in name.split("/")] for name in hidden]
         if not any(part[-1] == "journal" for part in parts):
@@ -318,6 +319,9 @@ def main():
     parser.add_argument("--part", default="1/1", type=lambda text: [int(number) for number in text.split("/")])
     parser.add_argument("--faults", default="", help="such as ENOSPC,SIGKILL; default: all")
     arguments = parser.parse_args()
+    # Signals that this program was started to ignore, as with nohup, the other one would ignore too.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
     broken = 0
     with tempfile.TemporaryDirectory() as base:
         for command in commands(pathlib.Path(base)):

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Gives files that are made to break readers (made_files.py) to every command that reads such files.
 
-Each run must end with exit code 0 or 2 within 20 s and 1.5 GB, print JSON with --json and say what is wrong in one readable line, and
+Each run must end with exit code 0 or 2 within 20 s of processor time and 1.5 GB, print JSON with --json and say what is wrong in one readable line, and
 leave nothing behind when it fails. Prints each broken promise, and the number of runs. Exit code 1: a promise is broken.
 
     made_inputs.py PROGRAM                       all of them, which takes some minutes
@@ -30,39 +30,63 @@ SMILE = str(ROOT / "samples/smile/script.json")
 WAV = str(ROOT / "samples/mcgurk/apa.wav")
 HEAD = str(ROOT / "models/adult/head.obj")
 MARKS = str(ROOT / "models/adult/landmarks.json")
-SECONDS, MEGABYTES = 20, 1500
+SECONDS, MEGABYTES, PATIENCE_S = 20, 1500, 200
 
 # What each kind of file is given to. {f}: the file, {o}: a folder for outputs. Where a command would go on for minutes with a good file, it
 # is asked for a plan, a check or one small picture.
 STILL = "--still 0 --size 16x16 --draft -o {o}/x.png"
 COMMANDS = {
-    "check": "check {f}", "info": "info {f}", "render": "render {f} " + STILL, "render --rig": f"render {SMILE} --rig {{f}} " + STILL,
-    "render --shapes": f"render {SMILE} --shapes {{f}} " + STILL, "render --audio": f"render {SMILE} --size 16x16 --draft --fps 1 --audio {{f}} -o {{o}}/x.mkv",
-    "render --against": f"render {SMILE} --show error --against {{f}} " + STILL, "speak": "speak {f} -o {o}/x.json", "speak --script": "speak a --script {f} -o {o}/x.json",
-    "speak --labels": f"speak --labels {{f}} --audio {WAV} -o {{o}}/x.utterance.json", "speak --audio": "speak a --audio {f} -o {o}/x.TextGrid",
-    "align": "align {f} --text a -o {o}/x.TextGrid", "compare": f"compare {SMILE} {{f}} --fps 1 --size 16x16 --draft -o {{o}}/x.mp4",
-    "sheet": "sheet {f} --times 0 --size 16x16 --draft -o {o}/x.png", "sheet --beside": f"sheet {SMILE} --times 0 --size 16x16 --draft --beside {{f}} -o {{o}}/x.png",
+    "check": "check {f}", "info": "info {f}", "render": "render {f} " + STILL,
+    "render --rig": f"render {SMILE} --rig {{f}} " + STILL,
+    "render --shapes": f"render {SMILE} --shapes {{f}} " + STILL,
+    "render --audio": f"render {SMILE} --size 16x16 --draft --fps 1 --audio {{f}} -o {{o}}/x.mkv",
+    "render --against": f"render {SMILE} --show error --against {{f}} " + STILL, "speak": "speak {f} -o {o}/x.json",
+    "speak --script": "speak a --script {f} -o {o}/x.json",
+    "speak --labels": f"speak --labels {{f}} --audio {WAV} -o {{o}}/x.utterance.json",
+    "speak --audio": "speak a --audio {f} -o {o}/x.TextGrid",
+    "align": "align {f} --text a -o {o}/x.TextGrid",
+    "compare": f"compare {SMILE} {{f}} --fps 1 --size 16x16 --draft -o {{o}}/x.mp4",
+    "sheet": "sheet {f} --times 0 --size 16x16 --draft -o {o}/x.png",
+    "sheet --beside": f"sheet {SMILE} --times 0 --size 16x16 --draft --beside {{f}} -o {{o}}/x.png",
     "landmarks": "landmarks {f} -o {o}/x.json", "fit": f"fit {{f}} --landmarks {MARKS} --no-calibrate -o {{o}}/x.json",
-    "fit --repair": f"fit {{f}} --landmarks {MARKS} --repair --no-calibrate -o {{o}}/x.json", "fit --landmarks": f"fit {HEAD} --landmarks {{f}} --no-calibrate -o {{o}}/x.json",
-    "fit --voice": "fit --voice {f}", "head --identity": "head --identity {f} --identity-only -o {o}/h", "head --morph": "head --morph {f} {f} 0.5 --identity-only -o {o}/h",
-    "evaluate": "evaluate {f} --facs --only AU12", "evaluate --shapes": f"evaluate {RIG} --shapes {{f}} --only AU12 --no-pictures", "evaluate --like": f"evaluate {RIG} --like {{f}} --only AU12",
-    "evaluate --codes": f"evaluate {RIG} --facs --codes {{f}} --key {{f}}", "shapes": "shapes {f} -o {o}/s", "shapes --script": f"shapes {RIG} --script {{f}} --only jawOpen --no-pictures --no-correctives --test-frames 0 --texture 0 -o {{o}}/s",
-    "solve --shapes": f"solve {RIG} --shapes {{f}} --only jawOpen -o {{o}}/s", "solve --mesh": f"solve {RIG} --mesh {{f}} -o {{o}}/s", "solve --landmarks": f"solve {RIG} --landmarks {{f}} --fps 1 -o {{o}}/s",
-    "import": "import {f} -o {o}/x.json", "import --rig": "import " + str(ROOT / "tests/fuzz/seeds/motion/live_link.csv") + " --rig {f} -o {o}/x.json",
-    "export": "export {f} --times 0 --quality draft -o {o}/e", "export osim": "export {f} --format osim --times 0 --quality draft -o {o}/e",
-    "batch --plan": "batch {f} --plan", "batch --norms": f"batch {ROOT}/samples/stimuli/design.json --norms {{f}} --part 300/300 -o {{o}}/b", "reverse": "reverse {f} {f} --no-pictures -o {o}/r",
-    "study --plan": "study {f} --plan", "figure": "figure {f} -o {o}/f", "view": "view {f} --no-browser", "bench --rig": "bench --rig {f} --steps -o {o}/b.json",
-    **{f"import --as {name}": f"import {{f}} --as {name} -o {{o}}/x.json" for name in ("livelink", "mediapipe", "openface", "pyfeat", "arkit", "gltf", "vmc", "bvh", "storage")}}
+    "fit --repair": f"fit {{f}} --landmarks {MARKS} --repair --no-calibrate -o {{o}}/x.json",
+    "fit --landmarks": f"fit {HEAD} --landmarks {{f}} --no-calibrate -o {{o}}/x.json",
+    "fit --voice": "fit --voice {f}", "head --identity": "head --identity {f} --identity-only -o {o}/h",
+    "head --morph": "head --morph {f} {f} 0.5 --identity-only -o {o}/h",
+    "evaluate": "evaluate {f} --facs --only AU12",
+    "evaluate --shapes": f"evaluate {RIG} --shapes {{f}} --only AU12 --no-pictures",
+    "evaluate --like": f"evaluate {RIG} --like {{f}} --only AU12",
+    "evaluate --codes": f"evaluate {RIG} --facs --codes {{f}} --key {{f}}", "shapes": "shapes {f} -o {o}/s",
+    "shapes --script": f"shapes {RIG} --script {{f}} --only jawOpen --no-pictures --no-correctives --test-frames 0 --texture 0 -o {{o}}/s",
+    "solve --shapes": f"solve {RIG} --shapes {{f}} --only jawOpen -o {{o}}/s",
+    "solve --mesh": f"solve {RIG} --mesh {{f}} -o {{o}}/s",
+    "solve --landmarks": f"solve {RIG} --landmarks {{f}} --fps 1 -o {{o}}/s",
+    "import": "import {f} -o {o}/x.json", "import --rig": "import " +
+    str(ROOT / "tests/fuzz/seeds/motion/live_link.csv") + " --rig {f} -o {o}/x.json",
+    "export": "export {f} --times 0 --quality draft -o {o}/e",
+    "export osim": "export {f} --format osim --times 0 --quality draft -o {o}/e",
+    "batch --plan": "batch {f} --plan",
+    "batch --norms": f"batch {ROOT}/samples/stimuli/design.json --norms {{f}} --part 300/300 -o {{o}}/b",
+    "reverse": "reverse {f} {f} --no-pictures -o {o}/r",
+    "study --plan": "study {f} --plan", "figure": "figure {f} -o {o}/f", "view": "view {f} --no-browser",
+    "bench --rig": "bench --rig {f} --steps -o {o}/b.json",
+    **{f"import --as {name}": f"import {{f}} --as {name} -o {{o}}/x.json" for name in ("livelink", "mediapipe",
+        "openface", "pyfeat", "arkit", "gltf", "vmc", "bvh", "storage")}}
 AS = [name for name in COMMANDS if name.startswith("import --as")]
 ALL = [name for name in COMMANDS if name not in AS]
 USES = {
     "no_files": ALL, "any_json": [name for name in ALL if name not in ("align", "speak", "speak --audio")],
-    "scripts": ["check", "render", "sheet", "export", "speak --script", "shapes --script", "render --against", "render --rig"],
-    "designs": ["check", "batch --plan"], "studies": ["check", "study --plan", "figure"], "tet_meshes": ["check", "fit", "figure"],
-    "tables": ["check", "solve --landmarks", "reverse", "evaluate --codes", "batch --norms", "import", "import --as livelink", "import --as openface", "import --as pyfeat", "import --as storage", "speak --labels"],
-    "recordings": ["import", "solve --landmarks", "info", "check"] + AS, "sounds": ["align", "render --audio", "speak --audio", "speak"],
+    "scripts": ["check", "render", "sheet", "export", "speak --script", "shapes --script", "render --against",
+    "render --rig"],
+    "designs": ["check", "batch --plan"], "studies": ["check", "study --plan", "figure"],
+    "tet_meshes": ["check", "fit", "figure"],
+    "tables": ["check", "solve --landmarks", "reverse", "evaluate --codes", "batch --norms", "import",
+    "import --as livelink", "import --as openface", "import --as pyfeat", "import --as storage", "speak --labels"],
+    "recordings": ["import", "solve --landmarks", "info", "check"] + AS,
+    "sounds": ["align", "render --audio", "speak --audio", "speak"],
     "labels": ["speak --labels", "speak", "check"],
-    "meshes": ["check", "fit", "fit --repair", "landmarks", "info", "render --shapes", "solve --mesh", "solve --shapes", "sheet --beside", "import --as gltf"]}
+    "meshes": ["check", "fit", "fit --repair", "landmarks", "info", "render --shapes", "solve --mesh",
+    "solve --shapes", "sheet --beside", "import --as gltf"]}
 MAY_GO_ON = {"view"}  # a server, when the file is good
 
 
@@ -84,17 +108,19 @@ class Sweep:
         words = [os.fspath(path) if w == "{f}" else w.replace("{o}", str(out)) for w in COMMANDS[name].split()]
         environment = {**os.environ, "RISORIUS_DATA": str(ROOT), "TMPDIR": str(temporary)}
         with open(self.base / "stdout", "w+b") as output, open(self.base / "stderr", "w+b") as errors:
-            begin = time.monotonic()
-            child = subprocess.Popen([self.program, *words, "--json"], stdin=subprocess.DEVNULL, stdout=output, stderr=errors, cwd=work, env=environment)
-            timer = threading.Timer(5 if name in MAY_GO_ON else 2 * SECONDS, child.terminate if name in MAY_GO_ON else child.kill)
+            child = subprocess.Popen([self.program, *words, "--json"], stdin=subprocess.DEVNULL, stdout=output,
+                stderr=errors, cwd=work, env=environment)
+            timer = threading.Timer(5 if name in MAY_GO_ON else PATIENCE_S,
+                child.terminate if name in MAY_GO_ON else child.kill)
             timer.start()
             _, status, usage = os.wait4(child.pid, 0)
             timer.cancel()
             child.returncode = os.waitstatus_to_exitcode(status)
-            seconds = time.monotonic() - begin
+            seconds = usage.ru_utime + usage.ru_stime  # of its children, too
             output.seek(0)
             errors.seek(0)
-            return child.returncode, output.read(), errors.read(), seconds, usage.ru_maxrss / 1000, [out, work, temporary]
+            return child.returncode, output.read(), errors.read(), seconds, usage.ru_maxrss / 1000, [out, work,
+                temporary]
 
     def try_one(self, name, path):
         self.runs += 1
