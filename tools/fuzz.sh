@@ -33,8 +33,9 @@ cmake --build --preset fuzz
 jobs=$(nproc)
 seconds=$((minutes * 60 * jobs / ${#readers[@]} + 1))
 mkdir -p build-fuzz/findings
-# The seeds have at most 1.6 kB. Longer inputs and long stacks of allocations only take time.
-export ASAN_OPTIONS=malloc_context_size=2
+# The seeds have at most 1.6 kB. Longer inputs only take time, as do stacks of allocations, memory that is kept for long after it was
+# given back, and memory that is filled.
+export ASAN_OPTIONS=malloc_context_size=0:quarantine_size_mb=4:thread_local_quarantine_size_kb=64:max_malloc_fill_size=0
 # Files in memory: a reader gets each input as a file.
 scratch=$(mktemp -d -p "$([[ -w /dev/shm ]] && printf /dev/shm || printf /tmp)")
 trap 'rm -rf "$scratch"' EXIT

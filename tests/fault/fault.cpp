@@ -8,6 +8,7 @@
 //   FAULT_KIND    only operations of this kind are counted, such as "rename"
 //   FAULT_LOG     a file to which each operation is appended
 //
+//   FAULT_EACH, ...   see fault_each.h
 //   FAULT_THREAD_FROM   apart from that: no thread is started from the one with this number on
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -23,6 +24,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+
+#include "fault_each.h"
 
 namespace {
 
@@ -72,8 +75,16 @@ bool fails(const char* kind, const char* path) {
     if (inside) return false;
     if (const char* only = std::getenv("FAULT_KIND"); only && std::strcmp(only, kind) != 0)
         return false;
+    if (risorius::fault::is_copy()) return false;  // it has had its fault
     const int number = ++count;
     log(number, kind, path);
+    if (risorius::fault::tries_each()) {
+        inside = true;
+        const int error = risorius::fault::try_each(number);
+        inside = false;
+        errno = error;
+        return error != 0;
+    }
     const char* at = std::getenv("FAULT_AT");
     if (!at || number != std::atoi(at)) return false;
     if (const char* signal = std::getenv("FAULT_SIGNAL")) {

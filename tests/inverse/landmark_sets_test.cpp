@@ -104,7 +104,8 @@ class LandmarkSets : public testing::Test {
     }
     FitTarget read(const fs::path& file, LandmarkOptions options = {}) const {
         options.fps = 240;
-        return given_landmarks(file, options, points_, max_m_, head_.vertices);
+        return given_landmarks(
+            file, options, points_, [&] { return max_m_; }, head_.vertices);
     }
     /// The largest error of a displacement of the rig's landmarks, m.
     double error_m(const FitTarget& found, const LandmarkSet& set, bool flat = false) const {

@@ -292,6 +292,10 @@ TEST_F(ReadMotion, WrongFilesSayWhereAndWhy) {
                         "HIERARCHY\nROOT Hips\n{\nCHANNELS 3 Xrotation Yrotation Zrotation\n}\n"
                         "MOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0\n"),
               "x.bvh: expected a joint with \"head\" in its name, found none");
+    EXPECT_EQ(complaint("x.bvh",
+                        "HIERARCHY\nROOT head\n{\nCHANNELS 3 Zrotation Xrotation Yrotation\n"
+                        "CHANNELS 1 Zrotation\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0 0\n"),
+              "x.bvh: line 5: expected the channels of a joint once, found twice");
     EXPECT_EQ(complaint("x.jsonl", "{\"timestampMs\": 0, \"faceBlendshapes\": []}\n"),
               "x.jsonl: expected a face in some sample, found none in any");
 }

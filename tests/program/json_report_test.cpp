@@ -69,6 +69,22 @@ TEST_F(JsonReport, WrongInputIsJsonForEveryCommand) {
     }
 }
 
+TEST_F(JsonReport, PlansAndListsAreJsonToo) {
+    const std::string samples = std::string("'") + RISORIUS_SOURCE_DIR + "/samples/";
+    for (const std::string& arguments :
+         {"study " + samples + "study/study.json' --plan",
+          "batch " + samples + "experiments/design.json' --plan",
+          "batch " + samples + "experiments/design.json' --list", std::string("figure --list")}) {
+        const ShellResult result = run_here(arguments + " --json");
+        EXPECT_EQ(result.code, 0) << arguments << said();
+        EXPECT_FALSE(json_or_null(result.output).is_null()) << arguments << "\n" << result.output;
+    }
+    const Json study =
+        json_or_null(run_here("study " + samples + "study/study.json' --plan --json").output);
+    EXPECT_EQ(study.value("poses", 0), 2);
+    EXPECT_EQ(study.at("parameters").size(), 8u);
+}
+
 TEST_F(JsonReport, NothingIsPrintedThereWithoutTheOption) {
     EXPECT_EQ(run_here("info no.json").output, "");
 }

@@ -88,6 +88,16 @@ TEST_F(Speak, NothingIsLeftWhenTheVideoCannotBeMade) {
     }
 }
 
+// What the script names is read before it appears under its name: the sound by FFmpeg, too.
+TEST_F(Speak, ASoundIsReadBeforeItAppears) {
+    if (!std::filesystem::exists(RISORIUS_BINARY_DIR "/risorius-voice-espeak"))
+        GTEST_SKIP() << "built without the library espeak-ng";
+    const auto [code, said] = speak("Ah. --program espeak --passes 0 -o a.json");
+    EXPECT_EQ(code, 0) << said;
+    EXPECT_EQ(folder_.listing(),
+              (std::set<std::string>{"a.json", "a.speech.tsv", "a.utterance.json", "a.wav"}));
+}
+
 TEST_F(Speak, AScriptAndItsUtteranceAppearTogetherAndAreReadBefore) {
     write("anna.ctm", "anna 1 0.15 0.10 AA1\nanna 1 0.25 0.09 P\nanna 1 0.34 0.12 AA0\n");
     const auto [code, said] = speak(

@@ -22,7 +22,7 @@ namespace risorius::cli {
 namespace {
 
 constexpr int kInterrupted = 130;
-constexpr long kPatience_ns = 600'000'000;
+constexpr long kPatience_ns = 100'000'000;
 constexpr auto kBetweenTries = std::chrono::milliseconds(10);
 
 std::atomic<bool> stop_asked{false};

@@ -2,7 +2,7 @@
 /// \file
 /// Signals that ask the program to stop: a terminal that is closed, Ctrl-C, and kill (HUP, INT, TERM).
 ///
-/// A run takes notice between two of its steps and ends by itself. If it has not within 0.6 s, or after a second signal, a thread
+/// A run takes notice between two of its steps and ends by itself. If it has not within a tenth of a second, or after a second signal, a thread
 /// removes what the run has begun to write and ends the program. Once the outputs are decided, a signal has no effect any more.
 #pragma once
 

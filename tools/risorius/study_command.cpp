@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/error.h"
+#include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/study/run_study.h"
 #include "risorius/study/study_description.h"
@@ -19,8 +20,26 @@ struct StudyArguments {
     bool plan = false;
 };
 
+Json plan_of(const study::StudyDescription& study) {
+    Json parameters = Json::array();
+    for (const study::Parameter& parameter : study.parameters)
+        parameters.push_back(json_object({{"name", parameter.name},
+                                          {"varies", parameter.text()},
+                                          {"numbers", parameter.numbers.size()},
+                                          {"each", parameter.each}}));
+    return json_object({{"name", study.name},
+                        {"faces", study.runs()},
+                        {"poses", study.poses.size()},
+                        {"landmarks", study.landmarks.size()},
+                        {"parameters", std::move(parameters)}});
+}
+
 void print_plan(const StudyArguments& arguments) {
     const study::StudyDescription study = study::check_study(arguments.options.study);
+    if (arguments.common.json) {
+        std::printf("%s\n", json_text(plan_of(study), 2).c_str());
+        return;
+    }
     if (arguments.common.quiet) return;
     std::printf("%s: %d faces, %zu poses, %zu landmarks\n", study.name.c_str(), study.runs(),
                 study.poses.size(), study.landmarks.size());

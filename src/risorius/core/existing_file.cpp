@@ -7,7 +7,8 @@ namespace risorius {
 
 std::filesystem::path existing_file(const JsonCursor& json) {
     const std::filesystem::path file = json.path();
-    if (!std::filesystem::exists(file_to_read(file)))
+    std::error_code failure;  // a name that is too long, or a loop of links
+    if (!std::filesystem::exists(file_to_read(file), failure))
         json.fail("an existing file", "\"" + file.string() + "\"");
     return file;
 }

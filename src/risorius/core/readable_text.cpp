@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/core/readable_text.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace risorius {
@@ -8,6 +9,13 @@ namespace risorius {
 namespace {
 
 std::uint8_t byte_of(char c) { return static_cast<std::uint8_t>(c); }
+
+/// How many bytes at the start are ASCII without control characters, so that they stay as they are.
+std::size_t plain_size(std::string_view text) {
+    const auto end = std::find_if(text.begin(), text.end(),
+                                  [](char c) { return byte_of(c) < 0x20 || byte_of(c) >= 0x7F; });
+    return static_cast<std::size_t>(end - text.begin());
+}
 
 /// The character at the start of `text` as readable_text() writes it. Reduces `text` by it.
 std::string take_readable(std::string_view& text) {
@@ -53,12 +61,19 @@ std::size_t character_size(std::string_view text) {
 std::string readable_text(std::string_view text) {
     std::string out;
     out.reserve(text.size());
-    while (!text.empty()) out += take_readable(text);
+    while (!text.empty()) {
+        const std::size_t plain = plain_size(text);
+        out += text.substr(0, plain);
+        text.remove_prefix(plain);
+        if (!text.empty()) out += take_readable(text);
+    }
     return out;
 }
 
 std::string shortened_text(std::string_view text, std::size_t max_bytes) {
-    std::string out;
+    const std::size_t plain = std::min(plain_size(text), max_bytes);
+    std::string out(text.substr(0, plain));
+    text.remove_prefix(plain);
     while (!text.empty()) {
         const std::string next = take_readable(text);
         if (out.size() + next.size() > max_bytes) return out + "...";

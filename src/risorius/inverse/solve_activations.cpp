@@ -321,10 +321,13 @@ FitTarget solve_as_units(face::FaceTeam& team, const scene::RigFiles& files,
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     const UnitBench bench(team, sources, vertices);
-    std::vector<UnitState> known = bench.known(files, options.quality, monitor.subrange(0, 0.3));
+    std::vector<UnitState> known;
+    const auto max_m = [&] {
+        known = bench.known(files, options.quality, monitor.subrange(0, 0.3));
+        return largest_motions(points, vertices, known[0].way);
+    };
     const FitTarget given =
-        given_landmarks(options.landmarks, landmark_options(options), points,
-                        largest_motions(points, vertices, known[0].way), head.vertices);
+        given_landmarks(options.landmarks, landmark_options(options), points, max_m, head.vertices);
     UnitSolution found = solve_units(bench, given, std::move(known), {}, monitor.subrange(0.3, 1));
     if (found.curves.empty())
         throw Error(options.landmarks.string(), "landmarks that move as an action unit does",
@@ -347,22 +350,25 @@ FitTarget solve_as_units(face::FaceTeam& team, const scene::RigFiles& files,
 /// Reads landmarks for a search for muscles.
 FitTarget landmarks_for_muscles(face::Face& face, const scene::RigFiles& files,
                                 const SolveOptions& options) {
-    // Largest displacement of each landmark by any of the unknowns
     const scene::LandmarkPoints points(face.head(), files.rig);
-    const track::Drive rest = nothing(files.rig.channels());
-    face.start([&](double) { return rest; });
-    face.solve_equilibrium(rest.excitation, rest);
-    std::vector<int> columns;
-    for (const ActivationUnknown& unknown : activation_unknowns(files.rig, rest, true))
-        columns.insert(columns.end(), unknown.columns.begin(), unknown.columns.end());
-    const std::vector<Points> ways =
-        face.statics().sensitivities(columns, std::array{Kinematic::kJawOpen});
-    std::vector<double> max_m;
-    for (const std::string& id : points.ids()) {
-        double max = 0;
-        for (const Points& way : ways) max = std::max(max, way.row(points.vertex(id)).norm());
-        max_m.push_back(max);
-    }
+    // Largest displacement of each landmark by any of the unknowns
+    const auto max_m = [&] {
+        const track::Drive rest = nothing(files.rig.channels());
+        face.start([&](double) { return rest; });
+        face.solve_equilibrium(rest.excitation, rest);
+        std::vector<int> columns;
+        for (const ActivationUnknown& unknown : activation_unknowns(files.rig, rest, true))
+            columns.insert(columns.end(), unknown.columns.begin(), unknown.columns.end());
+        const std::vector<Points> ways =
+            face.statics().sensitivities(columns, std::array{Kinematic::kJawOpen});
+        std::vector<double> out;
+        for (const std::string& id : points.ids()) {
+            double max = 0;
+            for (const Points& way : ways) max = std::max(max, way.row(points.vertex(id)).norm());
+            out.push_back(max);
+        }
+        return out;
+    };
     FitTarget given = given_landmarks(options.landmarks, landmark_options(options), points, max_m,
                                       face.head().vertices);
     if (given.flat)

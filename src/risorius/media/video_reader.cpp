@@ -11,6 +11,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/read_file.h"
+#include "risorius/core/stand_in.h"
 #include "risorius/media/detail/ffmpeg.h"
 #include "risorius/media/detail/rgb_pixels.h"
 
@@ -50,7 +51,8 @@ void VideoReader::Impl::open(const std::filesystem::path& file) {
     silence_ffmpeg();
     name = file.string();
     check_file(file, kVideoFile);
-    if (avformat_open_input(&format, ffmpeg_url(name).c_str(), nullptr, nullptr) < 0 ||
+    if (avformat_open_input(&format, ffmpeg_url(file_to_read(file).string()).c_str(), nullptr,
+                            nullptr) < 0 ||
         avformat_find_stream_info(format, nullptr) < 0)
         throw Error(name, "a video file", "another kind of file, or one cut short");
     const AVCodec* decoder = nullptr;

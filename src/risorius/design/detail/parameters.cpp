@@ -27,6 +27,25 @@ std::string text_of(const Json& value) {
 
 using ValueOf = std::function<const Json&(const std::string& name, const std::string& place)>;
 
+// References may double what they refer to again and again: some lines would fill the memory.
+constexpr std::size_t kLargest = 1000000;  // letters and values of one value
+constexpr int kDeepest = 200;              // lists and objects in one another, as in any JSON
+constexpr std::size_t kLongestChain = 100;
+
+/// Adds the letters and values of a value. Throws Error when they, or the lists and objects in one another, become too many.
+void measure(const Json& value, const std::string& place, std::size_t& used, int depth = 0) {
+    if (depth > kDeepest)
+        throw Error(place,
+                    "at most " + std::to_string(kDeepest) + " lists and objects in one another",
+                    "more with the values of parameters");
+    used += 1 + (value.is_string() ? value.get_ref<const std::string&>().size() : 0);
+    if (used > kLargest)
+        throw Error(place, "at most " + std::to_string(kLargest) + " letters and values",
+                    "more with the values of parameters");
+    for (const auto& item : value.items())
+        if (value.is_structured()) measure(item.value(), place, used, depth + 1);
+}
+
 /// The name in a text that is exactly "${name}"; otherwise empty.
 std::string whole_reference(const std::string& text) {
     if (text.size() < 4 || text.compare(0, 2, "${") != 0 || text.back() != '}') return {};
@@ -54,32 +73,39 @@ std::string fill_text(const std::string& text, const std::string& place, const V
         const std::string name = end == std::string::npos ? "" : text.substr(i + 2, end - i - 2);
         if (!is_parameter_name(name))
             throw Error(place, "${name of a parameter}", risorius::in_quotes(text.substr(i)));
-        out += text_of(value_of(name, place));
+        const Json& value = value_of(name, place);
+        std::size_t used = out.size();
+        measure(value, place, used);
+        out += text_of(value);
         i = end + 1;
     }
     return out;
 }
 
-Json fill(const JsonCursor& value, const ValueOf& value_of) {
+/// `used`: what has been filled in so far, see measure().
+Json fill(const JsonCursor& value, const ValueOf& value_of, std::size_t& used) {
     if (value.is_object()) {
         Json out = Json::object();
         for (const std::string& key : value.keys()) {
             const std::string filled = fill_text(key, value.at(key).place(), value_of);
             if (out.contains(filled))
                 value.at(key).fail("every key once", risorius::in_quotes(filled) + " again");
-            out[filled] = fill(value.at(key), value_of);
+            out[filled] = fill(value.at(key), value_of, used);
         }
         return out;
     }
     if (value.is_array()) {
         Json out = Json::array();
-        for (const JsonCursor& item : value.items()) out.push_back(fill(item, value_of));
+        for (const JsonCursor& item : value.items()) out.push_back(fill(item, value_of, used));
         return out;
     }
     if (!value.is_string()) return value.json();
     const std::string text = value.string();
-    if (const std::string name = whole_reference(text); !name.empty())
-        return value_of(name, value.place());
+    if (const std::string name = whole_reference(text); !name.empty()) {
+        const Json& found = value_of(name, value.place());
+        measure(found, value.place(), used);
+        return found;
+    }
     if (!text.empty() && text[0] == '=')
         return json_number(arithmetic(text.substr(1), value.place(), [&](const std::string& name) {
             const Json& found = value_of(name, value.place());
@@ -88,7 +114,17 @@ Json fill(const JsonCursor& value, const ValueOf& value_of) {
                             json_text(found));
             return found.get<double>();
         }));
-    return fill_text(text, value.place(), value_of);
+    std::string filled = fill_text(text, value.place(), value_of);
+    used += filled.size() - std::min(filled.size(), text.size());
+    return filled;
+}
+
+Json filled_within_limits(const JsonCursor& value, const ValueOf& value_of) {
+    std::size_t used = 0;
+    Json out = fill(value, value_of, used);
+    used = 0;
+    measure(out, value.place(), used);
+    return out;
 }
 
 }  // namespace
@@ -133,8 +169,13 @@ Parameters::Parameters(const std::vector<Given>& given) : impl_(std::make_unique
             throw Error(source->second->place(), "a value that does not depend on itself",
                         circle + name);
         }
+        if (chain.size() == kLongestChain)
+            throw Error(source->second->place(),
+                        "a chain of at most " + std::to_string(kLongestChain) +
+                            " parameters that depend on one another",
+                        "a longer one");
         chain.push_back(name);
-        Json value = fill(*source->second, resolve);
+        Json value = filled_within_limits(*source->second, resolve);
         chain.pop_back();
         return impl_->values.emplace(name, std::move(value)).first->second;
     };
@@ -156,9 +197,13 @@ std::vector<std::string> Parameters::names() const {
 std::string Parameters::text(const std::string& name) const { return text_of(at(name)); }
 
 Json Parameters::filled(const JsonCursor& value) const {
-    return fill(value, [this](const std::string& name, const std::string& place) -> const Json& {
-        return impl_->at(name, place);
-    });
+    std::size_t used = 0;
+    return fill(
+        value,
+        [this](const std::string& name, const std::string& place) -> const Json& {
+            return impl_->at(name, place);
+        },
+        used);
 }
 
 std::string Parameters::filled_text(const std::string& text, const std::string& place) const {

@@ -138,18 +138,19 @@ landmarks::Similarity size_of(const LandmarkRecording& seen, const Points& sitte
 }  // namespace
 
 FitTarget given_landmarks(const std::filesystem::path& file, const LandmarkOptions& options,
-                          const scene::LandmarkPoints& points, const std::vector<double>& max_m,
-                          const Points& rest) {
+                          const scene::LandmarkPoints& points,
+                          const std::function<std::vector<double>()>& max_m, const Points& rest) {
     const std::vector<std::string> all = points.ids();
     const LandmarkRecording seen = read_landmark_recording(file, all, options.picture_px);
+    const std::vector<std::size_t> neutral = neutral_frames(seen, options);
+    const std::vector<double> max_of_all_m = max_m();
     std::vector<double> own_max_m;
     Points at_rest(static_cast<long>(seen.ids.size()), 3);
     for (std::size_t i = 0; i < seen.ids.size(); ++i) {
-        own_max_m.push_back(max_m[static_cast<std::size_t>(
+        own_max_m.push_back(max_of_all_m[static_cast<std::size_t>(
             std::find(all.begin(), all.end(), seen.ids[i]) - all.begin())]);
         at_rest.row(static_cast<long>(i)) = points.at(seen.ids[i], rest).transpose();
     }
-    const std::vector<std::size_t> neutral = neutral_frames(seen, options);
     const Head head(seen, own_max_m,
                     size_of(seen, seen.at[neutral[0]], at_rest, file.string()).scale);
     const Points sitter = sitter_of(seen, head, neutral);

@@ -26,10 +26,10 @@ struct LandmarkOptions {
     std::array<int, 2> picture_px = {};                   ///< see read_landmark_recording()
 };
 
-/// Reads landmarks (landmark_recording.h). `max_m`: largest displacement of each of `points` by muscles, m. `rest`: vertices of the head. Throws
-/// Error.
+/// Reads landmarks (landmark_recording.h). `max_m`: returns the largest displacement of each of `points` by muscles, m; it is called after the
+/// file was read, because it may take minutes. `rest`: vertices of the head. Throws Error.
 FitTarget given_landmarks(const std::filesystem::path& file, const LandmarkOptions& options,
-                          const scene::LandmarkPoints& points, const std::vector<double>& max_m,
-                          const Points& rest);
+                          const scene::LandmarkPoints& points,
+                          const std::function<std::vector<double>()>& max_m, const Points& rest);
 
 }  // namespace risorius::inverse

@@ -9,6 +9,7 @@
 #include "risorius/core/error.h"
 #include "risorius/core/json_cursor.h"
 #include "risorius/core/read_file.h"
+#include "risorius/core/stand_in.h"
 
 namespace risorius::media::detail {
 
@@ -69,7 +70,8 @@ SoundStream::SoundStream(const std::filesystem::path& file) : name_(file.string(
     silence_ffmpeg();
     check_file(file, kSoundFile);
     wav_ = read_wav_header(file);
-    if (avformat_open_input(&format_, ffmpeg_url(name_).c_str(), nullptr, nullptr) < 0)
+    const std::string url = ffmpeg_url(file_to_read(file).string());
+    if (avformat_open_input(&format_, url.c_str(), nullptr, nullptr) < 0)
         throw Error(name_, "a sound file", "another kind of file, or one cut short");
     try {
         if (const AVStream* first = format_->nb_streams > 0 ? format_->streams[0] : nullptr;

@@ -76,6 +76,8 @@ RecordedMotion read_bvh(const std::filesystem::path& file) {
             const double channels = words.number("the number of channels");
             if (joints.empty() || !(channels >= 0 && channels <= 9))
                 throw Error(words.place(), "0 to 9 channels of a joint", format_number(channels));
+            if (!joints.back().channels.empty())
+                throw Error(words.place(), "the channels of a joint once", "twice");
             joints.back().first = count;
             for (int i = 0; i < static_cast<int>(channels); ++i) {
                 const std::string name = words.take("the name of a channel");
