@@ -344,7 +344,7 @@ TEST(Outputs, ALimitOfTheSizeOfFilesIsAnError) {
 
 TEST(Outputs, OfARunWithoutMemoryAreGone) {
     const Folder folder;
-    const Outcome done = run(clip_in(folder) + "-o x.mp4", folder.path(), "ulimit -v 400000; ");
+    const Outcome done = run(clip_in(folder) + "-o x.mp4", folder.path(), "ulimit -v 265000; ");
     EXPECT_EQ(done.code, 1);
     EXPECT_EQ(done.errors, "risorius: not enough memory\n");
     EXPECT_EQ(folder.listing(), Names{"clip.json"});

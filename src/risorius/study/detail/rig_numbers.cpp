@@ -93,6 +93,10 @@ struct Search {
         for (const Entry& entry : entries) {
             if (steps.front() != "*" && steps.front() != entry.key && steps.front() != entry.name)
                 continue;
+            // "*" means all numbers: a text beside them, such as the kind of the bundles, is passed over.
+            if (steps.front() == "*" && steps.size() == 1 &&
+                (entry.value->is_string() || entry.value->is_boolean()))
+                continue;
             any = true;
             follow(*entry.value, pointer + "/" + escaped(entry.key), steps.subspan(1));
         }
