@@ -177,6 +177,21 @@ TEST(Lettering, StemsOfSmallLettersStandApart) {
     EXPECT_EQ(stems, 5);
 }
 
+TEST(Lettering, APointStandsApartFromItsDigits) {
+    for (const std::string text : {"1.5", "1.84", "0.75", "11.1"})
+        for (double x = 4; x < 5; x += 0.1) {
+            Image image(60, 20);
+            std::fill(image.rgba.begin(), image.rgba.end(), std::uint8_t{255});
+            write_text(text, {x, 14}, {.height_px = 9, .ink = 0}, image);
+            const std::string before = text.substr(0, text.find('.'));
+            const int from = static_cast<int>(x + 9 * text_width(before));
+            int lightest = 0;
+            for (int column = from; column < from + 3; ++column)
+                lightest = std::max<int>(lightest, image.pixel(column, 13)[0]);
+            EXPECT_GT(lightest, 150) << text << " at " << x;
+        }
+}
+
 TEST(Lettering, TheSameLetterIsAsWideInAnyWord) {
     EXPECT_DOUBLE_EQ(text_width("mouth") - text_width("mout"), text_width("ah") - text_width("a"));
     EXPECT_EQ(text_width(""), 0);

@@ -142,9 +142,9 @@ void add_digits_and_marks(Alphabet& of) {
     of['8'] = {0.58, {arc(0.29, -0.76, 0.23, 0.24, 0, 360), arc(0.29, -0.26, 0.29, 0.26, 0, 360)}};
     of['9'] = {0.60, {arc(0.30, -0.69, 0.30, 0.31, 0, 360), arc(-0.02, -0.69, 0.62, 0.69, 0, 75)}};
     of[' '] = {0.30, {}};
-    of['.'] = {0.0, {{{0, -0.04}, {0, -0.02}}}};
+    of['.'] = {0.14, {{{0.07, -0.04}, {0.07, -0.02}}}};
     of[','] = {0.06, {{{0.06, -0.06}, {0, 0.14}}}};
-    of[':'] = {0.0, {{{0, -0.04}, {0, -0.02}}, {{0, -0.60}, {0, -0.58}}}};
+    of[':'] = {0.14, {{{0.07, -0.04}, {0.07, -0.02}}, {{0.07, -0.60}, {0.07, -0.58}}}};
     of[';'] = {0.06, {{{0.06, -0.06}, {0, 0.14}}, {{0.06, -0.60}, {0.06, -0.58}}}};
     of['-'] = {0.34, {{{0, -0.36}, {0.34, -0.36}}}};
     of['+'] = {0.48, {{{0, -0.38}, {0.48, -0.38}}, {{0.24, -0.62}, {0.24, -0.14}}}};
@@ -266,9 +266,12 @@ void write_text(std::string_view text, const Vec2& at, const TextStyle& style, I
     Vec2 pen = at;
     for (const char32_t c : characters_of(text)) {
         const Letter& shape = letter(c);
-        // A stem lies on one column of pixels, not half on two. The first point of a letter is on its stem, if it has one.
-        const double stem = shape.lines.empty() ? 0 : shape.lines[0].front().x() * style.height_px;
-        const Vec2 drawn(std::floor(pen.x() + stem) + 0.5 - stem, pen.y());
+        // A letter that begins with a stem has it on one column of pixels, not half on two.
+        Vec2 drawn = pen;
+        if (!shape.lines.empty() && shape.lines[0][0].x() == shape.lines[0][1].x()) {
+            const double stem = shape.lines[0][0].x() * style.height_px;
+            drawn.x() = std::floor(pen.x() + stem) + 0.5 - stem;
+        }
         const int left = static_cast<int>(pen.x()) - reach,
                   top = static_cast<int>(pen.y() - kAbove * style.height_px) - reach,
                   right = static_cast<int>(pen.x() + shape.width * style.height_px) + reach + 1,
