@@ -41,8 +41,8 @@ Face played(const Quality& quality, int steps) {
 
 TEST(LocalSolve, AStepThatHasConvergedStaysWhereItIs) {
     constexpr int kSteps = 4;
-    const Points whole = played(with_mouth(500, 0, 1e-9), kSteps).statics().nodes();
-    const Points both = played(with_mouth(500, 30, 1e-9), kSteps).statics().nodes();
+    const Points whole = played(with_mouth(1000, 0, 1e-9), kSteps).statics().nodes();
+    const Points both = played(with_mouth(1000, 30, 1e-9), kSteps).statics().nodes();
     // What iterations of less than 0.001 micrometres RMS leave at the softest nodes
     EXPECT_LT((both - whole).rowwise().norm().maxCoeff(), 5e-6);
 }
@@ -52,10 +52,10 @@ TEST(LocalSolve, TheMouthsOwnIterationsBringItNearerToTheConvergedStep) {
     const auto skin = [](const Quality& quality) {
         return played(quality, kSteps).diagnostics().skin_nodes();
     };
-    const Points converged = skin(with_mouth(500, 0, 1e-9));
+    const Points converged = skin(with_mouth(1000, 0, 1e-9));
     // Once it has come: on the way single nodes of lips snap over each other a step sooner or later.
     const auto off = [&](int mouth_passes) {
-        return (skin(with_mouth(3, mouth_passes, 0)) - converged).norm();  // six, for its solids
+        return (skin(with_mouth(6, mouth_passes, 0)) - converged).norm();
     };
     EXPECT_LT(off(10), 0.5 * off(0));
 }

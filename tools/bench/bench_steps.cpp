@@ -24,9 +24,7 @@ constexpr double kPose_s = 0.5, kSwitch_s = 0.02, kJaw_hz = 2;
 constexpr int kPoses = 4;
 // An iteration of a converged step moves the nodes by less than 0.02 micrometres RMS, far below any reported error.
 constexpr double kConverged_m = 2e-8;
-constexpr int kConvergedIterations = 400;
-// They reach the same error as six on the usual size.
-constexpr int kIterationsOfFinerShells = 5;
+constexpr int kConvergedIterations = 800;
 constexpr int kTimesPlayed = 3;
 
 // Keys of a unit that is active in one of the poses.
@@ -109,7 +107,6 @@ track::ScriptDescription step_track(const scene::RigFiles& files) {
 
 face::Quality preview_with(int skin_vertices) {
     face::Quality quality = face::quality_named("preview");
-    if (skin_vertices > quality.shell_vertices) quality.iterations = kIterationsOfFinerShells;
     quality.shell_vertices = skin_vertices;
     return quality;
 }

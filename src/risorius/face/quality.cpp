@@ -6,25 +6,36 @@
 
 namespace risorius::face {
 
+namespace {
+
+constexpr int kMinIterations = 4, kMouthPasses = 6;
+
+}  // namespace
+
 Quality quality_named(const std::string& name) {
     if (name == "draft")
         return {.name = "draft",
-                .iterations = 8,
-                .mouth_passes = 10,
+                .min_iterations = kMinIterations,
+                .mouth_passes = kMouthPasses,
+                .tolerance_rms_m = 0.02e-3,
                 .step_s = 2 * kStep_s,
                 .max_substep_s = 2 * kStep_s};
-    if (name == "preview") return {.name = "preview", .iterations = 6, .mouth_passes = 9};
+    if (name == "preview")
+        return {.name = "preview",
+                .min_iterations = kMinIterations,
+                .mouth_passes = kMouthPasses,
+                .tolerance_rms_m = 0.01e-3};
     if (name == "video")
         return {.name = "video",
-                .iterations = 80,
-                .min_iterations = 4,
+                .iterations = 160,
+                .min_iterations = kMinIterations,
                 .tolerance_rms_m = 0.0025e-3,
                 .max_substep_s = kStep_s / 2};
     if (name == "fine")
         return {.name = "fine",
                 .shell_vertices = 1700,
-                .iterations = 120,
-                .min_iterations = 4,
+                .iterations = 240,
+                .min_iterations = kMinIterations,
                 .tolerance_rms_m = 0.0025e-3,
                 .max_substep_s = kStep_s / 2};
     throw Error(option_name("quality"),

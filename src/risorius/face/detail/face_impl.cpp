@@ -141,12 +141,6 @@ StepStats FaceImpl::solve_equilibrium(const Eigen::VectorXd& activation, const t
     return figures;
 }
 
-// Volume muscles need twice as many iterations for the same error. A jaw that its muscles move adds as many again.
-int FaceImpl::iterations() const {
-    const int times = 1 + (tissue.solids().empty() ? 0 : 1) + (driven_jaw.by_muscles() ? 1 : 0);
-    return times * quality.iterations;
-}
-
 StepStats FaceImpl::substep(const DriveAt& drive_at) {
     const double from = static_cast<double>(done) * substep_s,
                  to = static_cast<double>(done + 1) * substep_s;
@@ -176,7 +170,7 @@ StepStats FaceImpl::substep(const DriveAt& drive_at) {
                                              last_move.rows() > 0 && !went_back ? 1 : 0);
     const StepStats figures = driven_jaw.implicit_step(tissue, h, substep_s, moves.start, moves.aim,
                                                        activation, {moves.moved, gravity_at(drive)},
-                                                       {.iterations = iterations(),
+                                                       {.iterations = quality.iterations,
                                                         .min_iterations = quality.min_iterations,
                                                         .memory = kMemory,
                                                         .pairs = quality.precision,

@@ -124,7 +124,6 @@ struct FaceImpl {
     Points muscle_vertices(double fraction);
 
   private:
-    int iterations() const;
     bool jumped() const;  ///< the drive has jumped in one of the last two substeps
     StateWeights weights(double fraction) const;
     track::Drive drive_between(const StateWeights& weights) const;

@@ -26,7 +26,8 @@ constexpr double kTarsalPlate_pa_per_m = 5e6;  // tarsal plate holding its lid
 // opening jaw takes a third of its base away. Estimates; with them the measured jawOpen of ICT is met best.
 constexpr double kFloorShearRatio = 0.5, kFloorBulkRatio = 2.5;
 
-constexpr double kAboutMouth_mm = 20;  // radius around the line between the lips, average adult
+constexpr double kAboutMouth_mm = 20;    // radius around the line between the lips, average adult
+constexpr double kMouthTolerance = 0.1;  // of the mouth's own iterations, ratio to that of the step
 
 }  // namespace
 
@@ -291,6 +292,8 @@ void FaceTissue::refine(double h, const Points& start, const Points& aim,
     solve::QuasiNewtonOptions own = options;
     own.iterations = mouth_iterations_;
     own.min_iterations = 0;
+    own.tolerance_rms_m *= kMouthTolerance;
+    own.trust_last = true;
     mouth_->advance({h, start, aim, activation, inputs_.precision}, own, x);
 }
 
