@@ -101,6 +101,15 @@ void expect_same(const RigDescription& a, const RigDescription& b) {
     EXPECT_EQ(a.eyes.wide_deg, b.eyes.wide_deg);
     EXPECT_EQ(a.tissue.deep_shear_pa, b.tissue.deep_shear_pa);
     EXPECT_EQ(a.tissue.fibre_passive_strain, b.tissue.fibre_passive_strain);
+    ASSERT_EQ(a.tissue.fibres.size(), b.tissue.fibres.size());
+    for (std::size_t i = 0; i < a.tissue.fibres.size(); ++i) {
+        const FibreRegion &one = a.tissue.fibres[i], &other = b.tissue.fibres[i];
+        EXPECT_EQ(one.at + " " + one.from + " " + one.to + " " + one.layer,
+                  other.at + " " + other.from + " " + other.to + " " + other.layer);
+        EXPECT_EQ(one.radius_mm, other.radius_mm);
+        EXPECT_EQ(one.k1_pa, other.k1_pa);
+        EXPECT_EQ(one.k2, other.k2);
+    }
     EXPECT_EQ(a.skin.bending_n_m, b.skin.bending_n_m);
     EXPECT_EQ(a.appearance.skin_tone, b.appearance.skin_tone);
     EXPECT_EQ(a.appearance.seed, b.appearance.seed);
@@ -115,6 +124,7 @@ RigDescription unusual_rig() {
     rig.eyes.wide_deg = 9;
     rig.tissue.deep_shear_pa = 812.5;
     rig.tissue.fibre_passive_strain = 0.1 + 0.2;
+    rig.tissue.fibres = {{"zy_l", 31, "deep", "t_l", "ch_l", 1500, 0.5}};
     rig.skin.bending_n_m = 3e-5;
     rig.appearance.skin_tone = Vec3(0.1, 0.2, 0.3);
     rig.appearance.seed = 77;
@@ -301,6 +311,27 @@ TEST_F(RigFile, AnUnknownLandmarkIsNamedWithItsNeighbour) {
     EXPECT_EQ(complaint(json),
               "rig.json:/landmarks/stomi: expected a landmark of the atlas (did you mean "
               "\"stoi\"?), found \"stomi\"");
+}
+
+TEST_F(RigFile, ARegionOfFibresNeedsLandmarksADirectionAndAStiffness) {
+    const auto complaint_of = [&](const char* key, const Json& value) {
+        Json json = adult_json();
+        json["tissue"]["fibres"] = {
+            {{"at", "zy_l"}, {"radius_mm", 30}, {"from", "t_l"}, {"to", "ch_l"}, {"k1_pa", 1500}}};
+        if (key) json["tissue"]["fibres"][0][key] = value;
+        return complaint(json);
+    };
+    EXPECT_EQ(complaint_of("at", "zy_"),
+              "rig.json:/tissue/fibres/0/at: expected a landmark of the atlas (did you mean "
+              "\"zy_l\"?), found \"zy_\"");
+    EXPECT_EQ(complaint_of("to", "t_l"),
+              "rig.json:/tissue/fibres/0/to: expected another landmark than \"from\", found "
+              "\"t_l\"");
+    EXPECT_EQ(complaint_of("k1_pa", 0),
+              "rig.json:/tissue/fibres/0/k1_pa: expected [1, 1e+07], found 0");
+    EXPECT_EQ(complaint_of("layer", "skin"),
+              "rig.json:/tissue/fibres/0/layer: expected one of \"deep\" \"superficial\" \"both\", "
+              "found \"skin\"");
 }
 
 TEST_F(RigFile, AStrengthForNoMuscleIsFound) {

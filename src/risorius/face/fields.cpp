@@ -63,11 +63,17 @@ TissueFields tissue_fields(const FaceImpl& face, const FaceImpl::State& state, c
     const tissue::TetSolid& tets = face.tissue.tets();
     out.volume_ratio.resize(tets.size());
     out.stress_pa.resize(tets.size(), 6);
+    std::vector<Mat3> of_fibres(static_cast<std::size_t>(tets.size()), Mat3::Zero());
+    if (const tissue::FibreTets* fibres = face.tissue.passive_fibres())
+        for (std::size_t i = 0; i < fibres->list().size(); ++i)
+            of_fibres[static_cast<std::size_t>(fibres->list()[i].tet)] +=
+                fibres->cauchy_stress_pa(x, i);
     for (int t = 0; t < tets.size(); ++t) {
         Vec3 middle = Vec3::Zero();
         for (int k = 0; k < 4; ++k) middle += 0.25 * out.rest.row(out.tets(t, k)).transpose();
         out.volume_ratio[t] = tets.deformation_gradient(x, t).determinant();
-        out.stress_pa.row(t) = tensor_row(moved.tensor(middle, tets.cauchy_stress_pa(x, t)));
+        out.stress_pa.row(t) = tensor_row(moved.tensor(
+            middle, tets.cauchy_stress_pa(x, t) + of_fibres[static_cast<std::size_t>(t)]));
         out.superficial.push_back(face.mesh.tet_layer[static_cast<std::size_t>(t)] == kSkin);
     }
     return out;

@@ -156,11 +156,11 @@ struct FieldWriter {
 };
 
 template <typename T>
-void read_fields(const JsonCursor& parent, const char* key, T& out) {
+void read_fields(const JsonCursor& parent, const char* key, T& out,
+                 std::vector<std::string_view> keys = {}) {
     const auto found = parent.find(key);
     if (!found) return;
     const JsonCursor json = follow_table(*found);
-    std::vector<std::string_view> keys;
     visit_fields(out, FieldKeys{keys});
     json.allow_keys(keys);
     visit_fields(out, FieldReader{json});
@@ -170,6 +170,19 @@ Json fields_of(const T& value) {
     Json json = Json::object();
     T copy = value;
     visit_fields(copy, FieldWriter{json});
+    return json;
+}
+
+void read_tissue(const JsonCursor& rig_json, RigDescription& rig) {
+    read_fields(rig_json, "tissue", rig.tissue, {"fibres"});
+    const auto found = rig_json.find("tissue");
+    if (!found) return;
+    if (const auto fibres = follow_table(*found).find("fibres"))
+        rig.tissue.fibres = read_fibre_regions(*fibres, rig.atlas.landmark_ids());
+}
+Json tissue_json(const TissueDescription& tissue) {
+    Json json = fields_of(tissue);
+    if (!tissue.fibres.empty()) json["fibres"] = fibre_regions_json(tissue.fibres);
     return json;
 }
 
@@ -302,7 +315,7 @@ Json resolved_rig(const std::filesystem::path& file) {
     out["anatomy"]["lips"] = fields_of(rig.lips);
     out["anatomy"]["jaw"] = fields_of(rig.jaw);
     out["anatomy"]["eyes"] = fields_of(rig.eyes);
-    out["tissue"] = fields_of(rig.tissue);
+    out["tissue"] = tissue_json(rig.tissue);
     out["skin"] = fields_of(rig.skin);
     return out;
 }
@@ -375,7 +388,7 @@ RigDescription read_rig(const JsonCursor& json) {
     read_fields(anatomy, "jaw", rig.jaw);
     read_fields(anatomy, "eyes", rig.eyes);
     read_fields(anatomy, "activation", rig.activation);
-    read_fields(json, "tissue", rig.tissue);
+    read_tissue(json, rig);
     read_fields(json, "skin", rig.skin);
     if (json.has("look")) {
         if (json.has("appearance"))
@@ -441,7 +454,7 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     if (rig.activation.law != ActivationDescription().law)
         anatomy["activation"] = fields_of(rig.activation);
     json["anatomy"] = anatomy;
-    json["tissue"] = fields_of(rig.tissue);
+    json["tissue"] = tissue_json(rig.tissue);
     json["skin"] = fields_of(rig.skin);
     json["facs"] = table("facs.json");
     for (const auto& [unit, gain] : rig.unit_gains) json["unit_gains"][unit] = unit_gain_json(gain);

@@ -16,6 +16,7 @@
 #include "risorius/rig/atlas.h"
 #include "risorius/rig/detail/solid_muscles.h"
 #include "risorius/rig/muscle_table.h"
+#include "risorius/rig/passive_fibres.h"
 #include "risorius/track/channels.h"
 #include "risorius/track/facs.h"
 #include "risorius/track/intensity_curve.h"
@@ -90,6 +91,7 @@ struct TissueDescription {
     /// muscles and the tendon, pennation and length at rest of the muscle table
     std::string bundles = "facial";
     double force_scale = 1.5;  ///< factor of the force of every muscle, in addition to its strength
+    std::vector<FibreRegion> fibres = {};  ///< regions that are stiffer in one direction
 };
 
 /// The skin as a membrane.
