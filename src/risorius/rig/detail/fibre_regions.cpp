@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/rig/passive_fibres.h"
+#include "risorius/rig/detail/fibre_regions.h"
 
 #include <nlohmann/json.hpp>
 
