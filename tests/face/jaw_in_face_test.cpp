@@ -5,6 +5,7 @@
 #include <map>
 
 #include "face/adult_face.h"
+#include "risorius/face/anatomy/detail/jaw_dynamics.h"
 
 namespace risorius::face {
 namespace {

@@ -101,9 +101,9 @@ void expect_same(const RigDescription& a, const RigDescription& b) {
     EXPECT_EQ(a.eyes.wide_deg, b.eyes.wide_deg);
     EXPECT_EQ(a.tissue.deep_shear_pa, b.tissue.deep_shear_pa);
     EXPECT_EQ(a.tissue.fibre_passive_strain, b.tissue.fibre_passive_strain);
-    ASSERT_EQ(a.tissue.fibres.size(), b.tissue.fibres.size());
-    for (std::size_t i = 0; i < a.tissue.fibres.size(); ++i) {
-        const FibreRegion &one = a.tissue.fibres[i], &other = b.tissue.fibres[i];
+    ASSERT_EQ(a.tissue.collagen.size(), b.tissue.collagen.size());
+    for (std::size_t i = 0; i < a.tissue.collagen.size(); ++i) {
+        const CollagenRegion &one = a.tissue.collagen[i], &other = b.tissue.collagen[i];
         EXPECT_EQ(one.at + " " + one.from + " " + one.to + " " + one.layer,
                   other.at + " " + other.from + " " + other.to + " " + other.layer);
         EXPECT_EQ(one.radius_mm, other.radius_mm);
@@ -124,7 +124,7 @@ RigDescription unusual_rig() {
     rig.eyes.wide_deg = 9;
     rig.tissue.deep_shear_pa = 812.5;
     rig.tissue.fibre_passive_strain = 0.1 + 0.2;
-    rig.tissue.fibres = {{"zy_l", 31, "deep", "t_l", "ch_l", 1500, 0.5}};
+    rig.tissue.collagen = {{"zy_l", 31, "deep", "t_l", "ch_l", 1500, 0.5}};
     rig.skin.bending_n_m = 3e-5;
     rig.appearance.skin_tone = Vec3(0.1, 0.2, 0.3);
     rig.appearance.seed = 77;
@@ -316,22 +316,23 @@ TEST_F(RigFile, AnUnknownLandmarkIsNamedWithItsNeighbour) {
 TEST_F(RigFile, ARegionOfFibresNeedsLandmarksADirectionAndAStiffness) {
     const auto complaint_of = [&](const char* key, const Json& value) {
         Json json = adult_json();
-        json["tissue"]["fibres"] = {
+        json["tissue"]["collagen"] = {
             {{"at", "zy_l"}, {"radius_mm", 30}, {"from", "t_l"}, {"to", "ch_l"}, {"k1_pa", 1500}}};
-        if (key) json["tissue"]["fibres"][0][key] = value;
+        if (key) json["tissue"]["collagen"][0][key] = value;
         return complaint(json);
     };
     EXPECT_EQ(complaint_of("at", "zy_"),
-              "rig.json:/tissue/fibres/0/at: expected a landmark of the atlas (did you mean "
+              "rig.json:/tissue/collagen/0/at: expected a landmark of the atlas (did you mean "
               "\"zy_l\"?), found \"zy_\"");
     EXPECT_EQ(complaint_of("to", "t_l"),
-              "rig.json:/tissue/fibres/0/to: expected another landmark than \"from\", found "
+              "rig.json:/tissue/collagen/0/to: expected another landmark than \"from\", found "
               "\"t_l\"");
     EXPECT_EQ(complaint_of("k1_pa", 0),
-              "rig.json:/tissue/fibres/0/k1_pa: expected [1, 1e+07], found 0");
-    EXPECT_EQ(complaint_of("layer", "skin"),
-              "rig.json:/tissue/fibres/0/layer: expected one of \"deep\" \"superficial\" \"both\", "
-              "found \"skin\"");
+              "rig.json:/tissue/collagen/0/k1_pa: expected [1, 1e+07], found 0");
+    EXPECT_EQ(
+        complaint_of("layer", "skin"),
+        "rig.json:/tissue/collagen/0/layer: expected one of \"deep\" \"superficial\" \"both\", "
+        "found \"skin\"");
 }
 
 TEST_F(RigFile, AStrengthForNoMuscleIsFound) {

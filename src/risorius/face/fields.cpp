@@ -64,7 +64,7 @@ TissueFields tissue_fields(const FaceImpl& face, const FaceImpl::State& state, c
     out.volume_ratio.resize(tets.size());
     out.stress_pa.resize(tets.size(), 6);
     std::vector<Mat3> of_fibres(static_cast<std::size_t>(tets.size()), Mat3::Zero());
-    if (const tissue::FibreTets* fibres = face.tissue.passive_fibres())
+    if (const tissue::CollagenTets* fibres = face.tissue.collagen())
         for (std::size_t i = 0; i < fibres->list().size(); ++i)
             of_fibres[static_cast<std::size_t>(fibres->list()[i].tet)] +=
                 fibres->cauchy_stress_pa(x, i);

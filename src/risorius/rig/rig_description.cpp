@@ -174,15 +174,15 @@ Json fields_of(const T& value) {
 }
 
 void read_tissue(const JsonCursor& rig_json, RigDescription& rig) {
-    read_fields(rig_json, "tissue", rig.tissue, {"fibres"});
+    read_fields(rig_json, "tissue", rig.tissue, {"collagen"});
     const auto found = rig_json.find("tissue");
     if (!found) return;
-    if (const auto fibres = follow_table(*found).find("fibres"))
-        rig.tissue.fibres = read_fibre_regions(*fibres, rig.atlas.landmark_ids());
+    if (const auto fibres = follow_table(*found).find("collagen"))
+        rig.tissue.collagen = read_collagen_regions(*fibres, rig.atlas.landmark_ids());
 }
 Json tissue_json(const TissueDescription& tissue) {
     Json json = fields_of(tissue);
-    if (!tissue.fibres.empty()) json["fibres"] = fibre_regions_json(tissue.fibres);
+    if (!tissue.collagen.empty()) json["collagen"] = collagen_regions_json(tissue.collagen);
     return json;
 }
 

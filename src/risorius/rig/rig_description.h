@@ -14,7 +14,7 @@
 #include "risorius/core/json_cursor.h"
 #include "risorius/geom/polygon_mesh.h"
 #include "risorius/rig/atlas.h"
-#include "risorius/rig/detail/fibre_regions.h"
+#include "risorius/rig/detail/collagen_regions.h"
 #include "risorius/rig/detail/solid_muscles.h"
 #include "risorius/rig/muscle_table.h"
 #include "risorius/track/channels.h"
@@ -91,7 +91,7 @@ struct TissueDescription {
     /// muscles and the tendon, pennation and length at rest of the muscle table
     std::string bundles = "facial";
     double force_scale = 1.5;  ///< factor of the force of every muscle, in addition to its strength
-    std::vector<FibreRegion> fibres = {};  ///< regions that are stiffer in one direction
+    std::vector<CollagenRegion> collagen = {};  ///< regions that are stiffer in one direction
 };
 
 /// The skin as a membrane.

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "risorius/face/muscle/detail/muscle_placement.h"
-#include "risorius/face/solver/detail/passive_fibres.h"
+#include "risorius/face/solver/detail/collagen.h"
 #include "risorius/face/solver/detail/terms/attachment_term.h"
 #include "risorius/face/solver/detail/terms/fibre_term.h"
 #include "risorius/face/solver/detail/terms/lip_term.h"
@@ -219,10 +219,10 @@ void FaceTissue::build_terms() {
     terms_.add(std::make_shared<LoadTerm>(cheeks_, mass_, fixed_));
     terms_.add(std::make_shared<LipTerm>(*lip_drive_, inputs_));
     terms_.add(std::make_shared<PullTerm>());
-    if (!rig_.tissue.fibres.empty()) {
-        passive_fibres_ = std::make_shared<tissue::FibreTets>(
-            place_passive_fibres(head_, rig_.tissue.fibres, mesh_), mesh_.nodes);
-        terms_.add(passive_fibres_);
+    if (!rig_.tissue.collagen.empty()) {
+        collagen_ = std::make_shared<tissue::CollagenTets>(
+            place_collagen(head_, rig_.tissue.collagen, mesh_), mesh_.nodes);
+        terms_.add(collagen_);
     }
 }
 

@@ -45,8 +45,8 @@
 #include "risorius/rig/rig_description.h"
 #include "risorius/solve/quasi_newton.h"
 #include "risorius/solve/sparse_cholesky.h"
+#include "risorius/tissue/collagen_tets.h"
 #include "risorius/tissue/contacts.h"
-#include "risorius/tissue/fibre_tets.h"
 #include "risorius/tissue/skin_sheet.h"
 #include "risorius/tissue/tet_solid.h"
 
@@ -169,7 +169,7 @@ class FaceTissue {
 
     const tissue::TetSolid& tets() const { return *tets_; }
     /// Null if the rig has no regions of fibres.
-    const tissue::FibreTets* passive_fibres() const { return passive_fibres_.get(); }
+    const tissue::CollagenTets* collagen() const { return collagen_.get(); }
     const muscle::FibreSet& fibres() const { return *fibres_; }
     muscle::FibreSet& fibres() { return *fibres_; }
     const MusclePlacement& muscles() const { return muscles_; }  ///< at rest
@@ -228,7 +228,7 @@ class FaceTissue {
     Rigid mandible_ = Rigid::Identity();
     std::array<Mat3, 2> gaze_{Mat3::Identity(), Mat3::Identity()};
     std::shared_ptr<ContactTerm> contact_term_;
-    std::shared_ptr<tissue::FibreTets> passive_fibres_;
+    std::shared_ptr<tissue::CollagenTets> collagen_;
     std::vector<std::pair<double, JawMatrix>> ride_stiffness_;  // by h
     std::vector<std::pair<int, Vec3>> cheeks_;                  // deep node, outward area, m^2
     Eigen::VectorXd mass_;

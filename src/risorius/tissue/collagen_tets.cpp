@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/tissue/fibre_tets.h"
+#include "risorius/tissue/collagen_tets.h"
 
 #include <Eigen/LU>
 #include <cmath>
@@ -17,7 +17,7 @@ struct FibreEnergy {
     double energy_pa = 0, slope_pa = 0, curvature_pa = 0;  // W, dW/du, d2W/du2
 };
 
-FibreEnergy exponential(const PassiveFibres& fibres, double u) {
+FibreEnergy exponential(const CollagenFibres& fibres, double u) {
     const double exponent = fibres.k2 * u * u, growth = std::exp(exponent);
     return {.energy_pa = exponent < 1e-6 ? 0.5 * fibres.k1_pa * u * u * (1 + 0.5 * exponent)
                                          : 0.5 * fibres.k1_pa / fibres.k2 * std::expm1(exponent),
@@ -25,7 +25,7 @@ FibreEnergy exponential(const PassiveFibres& fibres, double u) {
             .curvature_pa = fibres.k1_pa * growth * (1 + 2 * exponent)};
 }
 
-FibreEnergy fibre_energy(const PassiveFibres& fibres, double u) {
+FibreEnergy fibre_energy(const CollagenFibres& fibres, double u) {
     if (!(u > 0)) return {};
     if (fibres.k2 * u * u <= kLargestExponent) return exponential(fibres, u);
     const double end = std::sqrt(kLargestExponent / fibres.k2), beyond = u - end;
@@ -35,7 +35,7 @@ FibreEnergy fibre_energy(const PassiveFibres& fibres, double u) {
             .curvature_pa = at.curvature_pa};
 }
 
-Mat3 edges_from_first(const PassiveFibres& fibres, const Points& x) {
+Mat3 edges_from_first(const CollagenFibres& fibres, const Points& x) {
     Mat3 out;
     for (int k = 0; k < 3; ++k)
         out.col(k) = (x.row(fibres.nodes[k + 1]) - x.row(fibres.nodes[0])).transpose();
@@ -44,13 +44,13 @@ Mat3 edges_from_first(const PassiveFibres& fibres, const Points& x) {
 
 }  // namespace
 
-FibreTets::FibreTets(std::vector<PassiveFibres> fibres, const Points& rest)
+CollagenTets::CollagenTets(std::vector<CollagenFibres> fibres, const Points& rest)
     : fibres_(std::move(fibres)) {
-    for (const PassiveFibres& one : fibres_) {
+    for (const CollagenFibres& one : fibres_) {
         const Mat3 edges = edges_from_first(one, rest);
         volume_m3_.push_back(edges.determinant() / 6);
         if (!(volume_m3_.back() > 0))
-            throw std::invalid_argument("FibreTets: tetrahedron " + std::to_string(one.tet) +
+            throw std::invalid_argument("CollagenTets: tetrahedron " + std::to_string(one.tet) +
                                         " has no positive volume");
         inverse_.push_back(edges.inverse());
         Eigen::Vector4d rate;
@@ -60,23 +60,23 @@ FibreTets::FibreTets(std::vector<PassiveFibres> fibres, const Points& rest)
     }
 }
 
-Vec3 FibreTets::moved(const Points& x, std::size_t i) const {
+Vec3 CollagenTets::moved(const Points& x, std::size_t i) const {
     Vec3 out = Vec3::Zero();
     for (int k = 0; k < 4; ++k) out += rate_[i][k] * x.row(fibres_[i].nodes[k]).transpose();
     return out;
 }
 
-double FibreTets::stretch(const Points& x, std::size_t i) const { return moved(x, i).norm(); }
+double CollagenTets::stretch(const Points& x, std::size_t i) const { return moved(x, i).norm(); }
 
-Mat3 FibreTets::cauchy_stress_pa(const Points& x, std::size_t i) const {
+Mat3 CollagenTets::cauchy_stress_pa(const Points& x, std::size_t i) const {
     const Vec3 fa = moved(x, i);
     const double change = (edges_from_first(fibres_[i], x) * inverse_[i]).determinant();
     return 2 * fibre_energy(fibres_[i], fa.squaredNorm() - 1).slope_pa / change * fa *
            fa.transpose();
 }
 
-double FibreTets::add_potential(const solve::ImplicitStep& /*step*/, const Points& x,
-                                Points& gradient) const {
+double CollagenTets::add_potential(const solve::ImplicitStep& /*step*/, const Points& x,
+                                   Points& gradient) const {
     double energy = 0;
     for (std::size_t i = 0; i < fibres_.size(); ++i) {
         const Vec3 fa = moved(x, i);
@@ -91,8 +91,9 @@ double FibreTets::add_potential(const solve::ImplicitStep& /*step*/, const Point
 }
 
 // Positive as it is: slope and curvature are never negative.
-void FibreTets::add_hessian(const solve::ImplicitStep& /*step*/, const Points& x,
-                            solve::Curvature /*curvature*/, solve::HessianBuilder& hessian) const {
+void CollagenTets::add_hessian(const solve::ImplicitStep& /*step*/, const Points& x,
+                               solve::Curvature /*curvature*/,
+                               solve::HessianBuilder& hessian) const {
     for (std::size_t i = 0; i < fibres_.size(); ++i) {
         const Vec3 fa = moved(x, i);
         const FibreEnergy at = fibre_energy(fibres_[i], fa.squaredNorm() - 1);
@@ -106,7 +107,7 @@ void FibreTets::add_hessian(const solve::ImplicitStep& /*step*/, const Points& x
     }
 }
 
-void FibreTets::add_metric(double /*step_s*/, solve::MetricBuilder& metric) const {
+void CollagenTets::add_metric(double /*step_s*/, solve::MetricBuilder& metric) const {
     for (std::size_t i = 0; i < fibres_.size(); ++i) {
         const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> block =
             4 * volume_m3_[i] * fibres_[i].k1_pa * rate_[i] * rate_[i].transpose();

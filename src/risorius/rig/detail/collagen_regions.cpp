@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/rig/detail/fibre_regions.h"
+#include "risorius/rig/detail/collagen_regions.h"
 
 #include <nlohmann/json.hpp>
 
@@ -7,8 +7,8 @@
 
 namespace risorius::rig {
 
-std::vector<FibreRegion> read_fibre_regions(const JsonCursor& json,
-                                            const std::vector<std::string>& landmarks) {
+std::vector<CollagenRegion> read_collagen_regions(const JsonCursor& json,
+                                                  const std::vector<std::string>& landmarks) {
     const std::vector<std::string_view> names(landmarks.begin(), landmarks.end());
     const auto landmark = [&](const JsonCursor& named) {
         const std::string id = named.string(), near = nearest_name(id, names);
@@ -17,10 +17,10 @@ std::vector<FibreRegion> read_fibre_regions(const JsonCursor& json,
                                     : "a landmark of the atlas (did you mean \"" + near + "\"?)");
         return id;
     };
-    std::vector<FibreRegion> out;
+    std::vector<CollagenRegion> out;
     for (const JsonCursor& item : json.items()) {
         item.allow_keys({"at", "radius_mm", "layer", "from", "to", "k1_pa", "k2"});
-        FibreRegion region;
+        CollagenRegion region;
         region.at = landmark(item.at("at"));
         region.radius_mm = item.at("radius_mm").number({1, 200});
         if (const auto layer = item.find("layer"))
@@ -35,9 +35,9 @@ std::vector<FibreRegion> read_fibre_regions(const JsonCursor& json,
     return out;
 }
 
-Json fibre_regions_json(const std::vector<FibreRegion>& regions) {
+Json collagen_regions_json(const std::vector<CollagenRegion>& regions) {
     Json out = Json::array();
-    for (const FibreRegion& region : regions)
+    for (const CollagenRegion& region : regions)
         out.push_back(json_object({{"at", region.at},
                                    {"radius_mm", region.radius_mm},
                                    {"layer", region.layer},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/face/solver/detail/passive_fibres.h"
+#include "risorius/face/solver/detail/collagen.h"
 
 #include "risorius/geom/polyline.h"
 
@@ -26,10 +26,11 @@ TetPlace place_of(const TissueMesh& mesh, long t) {
 
 }  // namespace
 
-std::vector<tissue::PassiveFibres> place_passive_fibres(
-    const rig::Head& head, const std::vector<rig::FibreRegion>& regions, const TissueMesh& mesh) {
-    std::vector<tissue::PassiveFibres> out;
-    for (const rig::FibreRegion& region : regions) {
+std::vector<tissue::CollagenFibres> place_collagen(const rig::Head& head,
+                                                   const std::vector<rig::CollagenRegion>& regions,
+                                                   const TissueMesh& mesh) {
+    std::vector<tissue::CollagenFibres> out;
+    for (const rig::CollagenRegion& region : regions) {
         const Vec3 middle = head.landmark(region.at),
                    way = Vec3(head.landmark(region.to) - head.landmark(region.from)).normalized();
         const double radius = head.mm(region.radius_mm);

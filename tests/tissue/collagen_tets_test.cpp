@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Passive fibres resist stretch along themselves, by the law of their source, and nothing else.
-#include "risorius/tissue/fibre_tets.h"
+#include "risorius/tissue/collagen_tets.h"
 
 #include <gtest/gtest.h>
 
@@ -21,10 +21,11 @@ Points two_tets() {
     return rest;
 }
 
-FibreTets fibres(double k2 = kK2, const Vec3& along = kAlong) {
-    return FibreTets({{.nodes = {0, 1, 2, 3}, .tet = 0, .along = along, .k1_pa = kK1_pa, .k2 = k2},
-                      {.nodes = {1, 4, 2, 3}, .tet = 1, .along = along, .k1_pa = kK1_pa, .k2 = k2}},
-                     two_tets());
+CollagenTets fibres(double k2 = kK2, const Vec3& along = kAlong) {
+    return CollagenTets(
+        {{.nodes = {0, 1, 2, 3}, .tet = 0, .along = along, .k1_pa = kK1_pa, .k2 = k2},
+         {.nodes = {1, 4, 2, 3}, .tet = 1, .along = along, .k1_pa = kK1_pa, .k2 = k2}},
+        two_tets());
 }
 
 Points deformed(const Mat3& f) { return two_tets() * f.transpose(); }
@@ -35,7 +36,7 @@ Mat3 stretched(double l, double across) {
     return l * along + across * (Mat3::Identity() - along);
 }
 
-TEST(FibreTets, ForceAndSecondDerivativeAreThoseOfTheEnergy) {
+TEST(CollagenTets, ForceAndSecondDerivativeAreThoseOfTheEnergy) {
     std::mt19937 random(3);
     std::normal_distribution<double> normal(0, 0.15);
     for (const double k2 : {0.0, kK2, 40.0}) {
@@ -46,8 +47,8 @@ TEST(FibreTets, ForceAndSecondDerivativeAreThoseOfTheEnergy) {
     }
 }
 
-TEST(FibreTets, StressOfAStretchIsThatOfHolzapfelGasserAndOgden) {
-    const FibreTets term = fibres();
+TEST(CollagenTets, StressOfAStretchIsThatOfHolzapfelGasserAndOgden) {
+    const CollagenTets term = fibres();
     for (const double l : {1.05, 1.2, 1.5})
         for (const double across : {0.7, 1.0}) {
             const double u = l * l - 1, slope = kK1_pa * u * std::exp(kK2 * u * u);
@@ -66,8 +67,8 @@ TEST(FibreTets, StressOfAStretchIsThatOfHolzapfelGasserAndOgden) {
                 4 * kK1_pa, 0.1);
 }
 
-TEST(FibreTets, SlackFibresPushNothing) {
-    const FibreTets term = fibres();
+TEST(CollagenTets, SlackFibresPushNothing) {
+    const CollagenTets term = fibres();
     const Points x = deformed(stretched(0.9, 1.4));
     EXPECT_EQ(term.energy(0, x), 0);
     EXPECT_EQ(laws::force_of(term, x).norm(), 0);
@@ -75,8 +76,8 @@ TEST(FibreTets, SlackFibresPushNothing) {
     EXPECT_LT(laws::force_of(term, two_tets()).norm(), 1e-9);
 }
 
-TEST(FibreTets, TheLawGoesOnWithoutAJumpAndWithoutOverflow) {
-    const FibreTets term = fibres(40);
+TEST(CollagenTets, TheLawGoesOnWithoutAJumpAndWithoutOverflow) {
+    const CollagenTets term = fibres(40);
     const double end = std::sqrt(1 + std::sqrt(6.0 / 40));  // l where k2 u^2 is 6
     const auto pull = [&](double l) {
         return term.cauchy_stress_pa(deformed(stretched(l, 1)), 0).trace();
@@ -87,8 +88,8 @@ TEST(FibreTets, TheLawGoesOnWithoutAJumpAndWithoutOverflow) {
     EXPECT_TRUE(std::isfinite(term.energy(0, deformed(stretched(-2, 1))))) << "inverted";
 }
 
-TEST(FibreTets, ATurnedBodyHasTheSameEnergyAndTurnedForces) {
-    const FibreTets term = fibres();
+TEST(CollagenTets, ATurnedBodyHasTheSameEnergyAndTurnedForces) {
+    const CollagenTets term = fibres();
     const Points x = deformed(stretched(1.2, 0.9));
     const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, -1, 2).normalized()).toRotationMatrix();
     const Points turned = x * turn.transpose();
@@ -97,11 +98,11 @@ TEST(FibreTets, ATurnedBodyHasTheSameEnergyAndTurnedForces) {
               1e-9 * laws::force_of(term, x).norm());
 }
 
-TEST(FibreTets, FlatTetrahedraAreRefused) {
+TEST(CollagenTets, FlatTetrahedraAreRefused) {
     Points flat = two_tets();
     flat.row(3) << 0.5, 0.5, 0;
-    EXPECT_THROW(FibreTets({{.k1_pa = 1}}, flat), std::invalid_argument);
-    EXPECT_THROW(FibreTets({{.nodes = {0, 1, 2, 3}, .k1_pa = 1}}, flat), std::invalid_argument);
+    EXPECT_THROW(CollagenTets({{.k1_pa = 1}}, flat), std::invalid_argument);
+    EXPECT_THROW(CollagenTets({{.nodes = {0, 1, 2, 3}, .k1_pa = 1}}, flat), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
 /// Regions of passive fibres in the tissue, such as the superficial musculoaponeurotic system (SMAS) or the lines of the skin. The law
-/// is that of tissue/fibre_tets.h.
+/// is that of tissue/collagen_tets.h.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 namespace risorius::rig {
 
 /// A ball around a landmark. Its fibres lie parallel to the skin, in the direction from one landmark to another.
-struct FibreRegion {
+struct CollagenRegion {
     std::string at;              ///< the landmark in its middle
     double radius_mm = 0;        ///< of an average adult; the stiffness fades over the outer fifth
     std::string layer = "both";  ///< "deep", "superficial" or "both"
@@ -22,8 +22,8 @@ struct FibreRegion {
 };
 
 /// Reads the list. `landmarks`: the names that a region may use.
-std::vector<FibreRegion> read_fibre_regions(const JsonCursor& json,
-                                            const std::vector<std::string>& landmarks);
-Json fibre_regions_json(const std::vector<FibreRegion>& regions);
+std::vector<CollagenRegion> read_collagen_regions(const JsonCursor& json,
+                                                  const std::vector<std::string>& landmarks);
+Json collagen_regions_json(const std::vector<CollagenRegion>& regions);
 
 }  // namespace risorius::rig

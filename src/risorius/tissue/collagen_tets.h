@@ -20,7 +20,7 @@
 
 namespace risorius::tissue {
 
-struct PassiveFibres {
+struct CollagenFibres {
     int nodes[4] = {0, 0, 0, 0};  ///< of the tetrahedron
     int tet = 0;                  ///< its number, for the caller
     Vec3 along = Vec3::UnitX();   ///< a, a unit vector
@@ -28,13 +28,13 @@ struct PassiveFibres {
     double k2 = 0;                ///< [0, inf)
 };
 
-class FibreTets : public solve::EnergyTerm {
+class CollagenTets : public solve::EnergyTerm {
   public:
     /// `rest`: n x 3, m. A tetrahedron may have several families of fibres. Throws std::invalid_argument if one has no positive
     /// volume.
-    FibreTets(std::vector<PassiveFibres> fibres, const Points& rest);
+    CollagenTets(std::vector<CollagenFibres> fibres, const Points& rest);
 
-    const std::vector<PassiveFibres>& list() const { return fibres_; }
+    const std::vector<CollagenFibres>& list() const { return fibres_; }
     double add_potential(const solve::ImplicitStep& step, const Points& x,
                          Points& gradient) const override;
     void add_hessian(const solve::ImplicitStep& step, const Points& x, solve::Curvature curvature,
@@ -48,7 +48,7 @@ class FibreTets : public solve::EnergyTerm {
     /// F a, from the rates at which the corners move the fibre.
     Vec3 moved(const Points& x, std::size_t i) const;
 
-    std::vector<PassiveFibres> fibres_;
+    std::vector<CollagenFibres> fibres_;
     std::vector<Eigen::Vector4d> rate_;  // gradients of the shape functions along a, 1/m
     std::vector<Mat3> inverse_;          // of the matrix of rest edges
     std::vector<double> volume_m3_;

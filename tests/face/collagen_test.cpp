@@ -17,13 +17,13 @@ namespace {
 /// A region beside the left nasolabial fold, from the corner of the mouth towards the ear.
 rig::RigDescription with_fibres(double k1_pa, const std::string& layer = "both") {
     rig::RigDescription rig = rig::adult().rig;
-    rig.tissue.fibres = {{.at = "nl3_l",
-                          .radius_mm = 30,
-                          .layer = layer,
-                          .from = "ch_l",
-                          .to = "t_l",
-                          .k1_pa = k1_pa,
-                          .k2 = 2}};
+    rig.tissue.collagen = {{.at = "nl3_l",
+                            .radius_mm = 30,
+                            .layer = layer,
+                            .from = "ch_l",
+                            .to = "t_l",
+                            .k1_pa = k1_pa,
+                            .k2 = 2}};
     return rig;
 }
 
@@ -54,7 +54,7 @@ double moved_by_spring_mm(const rig::RigDescription& rig, bool along) {
     return 1e3 * (position() - rest).dot(to);
 }
 
-TEST(PassiveFibres, MakeTheTissueStifferAlongThemselves) {
+TEST(CollagenFibres, MakeTheTissueStifferAlongThemselves) {
     const rig::RigDescription plain = rig::adult().rig, fibrous = with_fibres(8000);
     const double along = moved_by_spring_mm(fibrous, true) / moved_by_spring_mm(plain, true),
                  across = moved_by_spring_mm(fibrous, false) / moved_by_spring_mm(plain, false);
@@ -67,7 +67,7 @@ TEST(PassiveFibres, MakeTheTissueStifferAlongThemselves) {
     EXPECT_LT(skin_only, 0.95);
 }
 
-TEST(PassiveFibres, LeaveTheFaceAtRestAndItsEquilibriaFindable) {
+TEST(CollagenFibres, LeaveTheFaceAtRestAndItsEquilibriaFindable) {
     Face face = face_of(with_fibres(8000));
     const Points rest = face.statics().nodes();
     const Points gradient = face.statics().gradient(rest, neutral().excitation, neutral()),
@@ -91,7 +91,7 @@ TEST(PassiveFibres, LeaveTheFaceAtRestAndItsEquilibriaFindable) {
     EXPECT_LT(1e3 * (at(face.pose().vertices, "ch_l") - at(smile.vertices, "ch_l")).norm(), 0.3);
 }
 
-TEST(PassiveFibres, AreInTheStressOfTheTissue) {
+TEST(CollagenFibres, AreInTheStressOfTheTissue) {
     Face plain = adult_face(), fibrous = face_of(with_fibres(8000));
     const auto tension_pa = [&](Face& face) {
         equilibrium_pose(face, with_unit("AU20"), nullptr, kWithinATenth);
