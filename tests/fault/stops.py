@@ -6,7 +6,7 @@ After a stop the output must be absent or the former one, or the whole new one w
 temporary file and no process left. Every second run has a former output. Prints for each command how long a run was still there after the
 signal, on the clock and in processor time. Exit code 1: a promise is broken.
 
-    stops.py PROGRAM                     render, fit, head, shapes and batch, 40 stops each
+    stops.py PROGRAM                     render, fit, calibrate (fit with strengths), head, shapes and batch, 40 stops each
     stops.py PROGRAM render --stops 4    one command, fewer stops
     stops.py PROGRAM --within 1          a run that is there for longer after its signal breaks a promise, too
 """
@@ -36,9 +36,9 @@ def commands(scratch):
     def render(size):
         return ["render", ROOT / "samples/smile/script.json", "-o", "{out}/x.mp4", "--draft", "--size", size]
 
-    def fit(name):
+    def fit(name, strengths):
         return ["fit", mesh, "--landmarks", mesh.with_name("landmarks.json"), "-o", "{out}/rig.json",
-                "--muscles-apart", "--name", name, "--report", "{out}/report"]
+                strengths, "--name", name, "--report", "{out}/report"]
 
     def head(seed):
         return ["head", "-o", "{out}/h", "--seed", seed, "--texture", "512"]
@@ -52,7 +52,8 @@ def commands(scratch):
 
     return [
         Command("render", render("256x256"), render("48x48")),
-        Command("fit", fit("new"), fit("former")),
+        Command("fit", fit("new", "--no-calibrate"), fit("former", "--no-calibrate")),
+        Command("calibrate", fit("new", "--muscles-apart"), fit("former", "--no-calibrate")),
         Command("head", head("1"), head("2")),
         Command("shapes", shapes("jawOpen,mouthPucker"), shapes("jawOpen")),
         Command("batch", batch("new.json", 1), batch("former.json", 0.05), parts=True),
