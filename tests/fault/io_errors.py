@@ -69,19 +69,25 @@ class Command:
         self.name, self.new, self.former, self.parts = name, new, former, parts
 
 
+def script_of(duration_s, side_px):
+    return {"format": "risorius-script", "version": 1, "rig": str(ROOT / "rigs/adult/rig.json"),
+            "fps": 20, "duration_s": duration_s, "view": {"width_px": side_px, "height_px": side_px}}
+
+
+def design_of(duration_s, side_px):
+    return {
+        "format": "risorius-design", "version": 1, "name": "two clips",
+        "clips": {"quality": "draft"},
+        "sets": [{"name": "a", "clip": "c${k}", "script": script_of(duration_s, side_px), "factors": {"k": [1, 2]}}]}
+
+
 def commands(scratch):
     def write(name, value):
         (scratch / name).write_text(json.dumps(value))
 
-    script = {"format": "risorius-script", "version": 1, "rig": str(ROOT / "rigs/adult/rig.json"),
-              "fps": 20, "duration_s": 0.1, "view": {"width_px": 64, "height_px": 64}}
-    write("clip.json", script)
+    write("clip.json", script_of(0.1, 64))
     for name, duration in (("new", 0.1), ("former", 0.05)):
-        write(f"{name}.json", {
-            "format": "risorius-design", "version": 1, "name": "two clips",
-            "clips": {"quality": "draft"},
-            "sets": [{"name": "a", "clip": "c${k}", "script": {**script, "duration_s": duration},
-                      "factors": {"k": [1, 2]}}]})
+        write(f"{name}.json", design_of(duration, 64))
     mesh = ROOT / "models/adult/head.obj"
 
     def render(size):
@@ -339,4 +345,5 @@ def main():
     sys.exit(1 if broken else 0)
 
 
-main()
+if __name__ == "__main__":
+    main()
