@@ -143,6 +143,9 @@ class Stops:
     def all(self, count, within_s):
         for index in range(count):
             self.stop(index, count, within_s)
+        if not self.after:
+            self.tell("all stops", "the run was over before each", self.run_s)
+            return self.broken
         worst_s, _, where = max(self.after)
         median_s, most_s = statistics.median(one[0] for one in self.after), max(one[1] for one in self.after)
         print(f"{self.command.name}: {self.run_s:.1f} s, {len(self.after)} stops, {count - len(self.after)} too late, gone after "

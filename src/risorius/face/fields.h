@@ -6,7 +6,7 @@
 ///   F    deformation gradient        J = det F    volume / rest volume        sigma   Cauchy stress, Pa
 ///   sigma = mu/J F (F^T F - I) F^T + (K (J - 1) + c K min(0, J - J_c)) I      tissue/tet_solid.h has mu, K, J_c and c
 ///
-/// With passive fibres, their stress is added (tissue/collagen_tets.h).
+/// The stress of collagen, if the rig has any, is added (tissue/collagen_tets.h).
 ///
 /// Positions and directions are in the world frame, m, like FacePose: they include the motion of the head.
 #pragma once

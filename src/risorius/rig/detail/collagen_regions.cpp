@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/rig/detail/collagen_regions.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/json_object.h"

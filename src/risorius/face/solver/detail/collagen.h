@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The passive fibres of a face: the regions of the rig, laid into the tetrahedra of the tissue.
+/// The collagen of a face: the regions of the rig, laid into the tetrahedra of the tissue.
 #pragma once
 
 #include <vector>

@@ -168,7 +168,7 @@ class FaceTissue {
     const JawMatrix& ride_stiffness(double h) const;  ///< the measured stiffness, N/m
 
     const tissue::TetSolid& tets() const { return *tets_; }
-    /// Null if the rig has no regions of fibres.
+    /// Null if the rig has no regions of collagen.
     const tissue::CollagenTets* collagen() const { return collagen_.get(); }
     const muscle::FibreSet& fibres() const { return *fibres_; }
     muscle::FibreSet& fibres() { return *fibres_; }
