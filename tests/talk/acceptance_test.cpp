@@ -7,6 +7,7 @@
 
 #include "paths.h"
 #include "risorius/scene/rig_files.h"
+#include "risorius/speech/phone_table.h"
 #include "risorius/talk/detail/rig_voice.h"
 #include "risorius/talk/rig_voice_file.h"
 #include "risorius/talk/script_checker.h"
@@ -94,6 +95,48 @@ TEST_F(Talking, LabiodentalsTouchTheTeethAndVowelsAreApart) {
     EXPECT_GT(a_gap / as, 2 * i_gap / is);
     EXPECT_GT(i_width / is - u_width / us, 6);
     EXPECT_GT(u_forward / us - i_forward / is, 3);
+}
+
+/// Sustained, as phones.tsv asks: openings within 2.5 mm, width and protrusion within 1.5 mm. Lips that are pursed alone close on
+/// each other, and those that are only turned outwards stay wide.
+TEST_F(Talking, RoundedVowelsAreSmallAndOpenAndLipsCloseBesideThem) {
+    static ScriptChecker checker(adult(), "video");
+    const Json phones =
+        Json::parse(R"([["_", 0.3], ["u", 0.3], ["_", 0.25], ["y", 0.3], ["_", 0.25],
+        ["o", 0.3], ["_", 0.25], ["ø", 0.3], ["_", 0.25], ["u", 0.15], ["p", 0.12], ["u", 0.15], ["_", 0.25]])");
+    const CheckedSpeech speech = checker.check(JsonCursor::from_json(
+        Json{{"format", "risorius-script"},
+             {"version", 1},
+             {"rig", (kSource / "rigs/adult/rig.json").generic_string()},
+             {"duration_s", 3.6},
+             {"events", {{{"say", {{"phones", phones}}}, {"start_s", 0.0}, {"sound", "none"}}}}},
+        "script"));
+    const speech::PhoneTable table = speech::PhoneTable::standard();
+    const PlacedUtterance& placed = speech.utterances.at(0);
+    int vowels = 0;
+    for (const speech::Phone& phone : placed.utterance.phones) {
+        const double from_s = placed.start_s + placed.utterance.seconds(phone.start),
+                     to_s = placed.start_s + placed.utterance.seconds(phone.end);
+        if (phone.symbol == "_" || phone.symbol == "p" || to_s - from_s < 0.25) continue;
+        ++vowels;
+        const auto middle = [&](double Mouth::*measure) {
+            return speech.track.at((from_s + to_s) / 2, measure);
+        };
+        const auto target = [&](speech::Parameter parameter) {
+            return speech::value_of(table.phone(phone.symbol, phone.symbol).target, parameter);
+        };
+        const double protrusion =
+            (middle(&Mouth::upper_protrusion) + middle(&Mouth::lower_protrusion)) / 2;
+        EXPECT_NEAR(middle(&Mouth::gap), target(speech::Parameter::kGap), 2.5) << phone.symbol;
+        EXPECT_NEAR(middle(&Mouth::width), target(speech::Parameter::kWidth), 1.5) << phone.symbol;
+        EXPECT_NEAR(protrusion, target(speech::Parameter::kProtrusion), 1.5) << phone.symbol;
+        // Round enough to be seen: a tenth of the width of a mouth at rest is 5 mm.
+        EXPECT_LT(middle(&Mouth::width), -8.5) << phone.symbol;
+        EXPECT_GT(middle(&Mouth::gap), 3.5) << phone.symbol;
+    }
+    EXPECT_EQ(vowels, 4);
+    EXPECT_EQ(speech.total, 1);
+    EXPECT_EQ(speech.reached, 1);
 }
 
 TEST_F(Talking, LipsAreStillInSilenceAndNeverTooFast) {

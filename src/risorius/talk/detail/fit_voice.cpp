@@ -15,7 +15,7 @@ namespace risorius::talk {
 namespace {
 
 // Numbers of poses
-constexpr int kAround = 60, kClosed = 30, kLabiodental = 12, kRounds = 4;
+constexpr int kAround = 60, kClosed = 30, kLabiodental = 12, kRounded = 36, kRounds = 4;
 constexpr double kTouching_mm = 0.15;  // lips that touch
 constexpr double kSealStep_mm = 1.5, kSealEnd_mm = 4.5;
 constexpr int kIterations = 400;
@@ -54,11 +54,12 @@ class Fitter {
 
     RigVoice fit() {
         find_jaw_travel();
-        total_ =
-            16 + kAround + kClosed + kLabiodental + kRounds * static_cast<int>(std::size(kTargets));
+        total_ = 16 + kAround + kClosed + kLabiodental + kRounded +
+                 kRounds * static_cast<int>(std::size(kTargets));
         add_visemes();
         for (int i = 0; i < kClosed; ++i) add(closed(i));
         for (int i = 0; i < kLabiodental; ++i) add(labiodental(i));
+        for (int i = 0; i < kRounded; ++i) add(rounded(i));
         for (int i = 0; i < kAround; ++i) add(around(i));
         // Each round aims beyond a target by what the rounds before have missed it.
         std::vector<WantedMouth> targets = wanted_of_phones(), aims = targets;
@@ -217,6 +218,26 @@ class Fitter {
         set(out.activation, "buccinator", 0.05 + 0.2 * random(2000 + i, 4));
         set(out.activation, "mentalis", 0.4 * random(2000 + i, 5));
         set(out.activation, "incisivus_labii_inferioris", 0.3 * random(2000 + i, 6));
+        return out;
+    }
+
+    /// Pursed lips: two of three are turned outwards as well, which leaves a small round opening that neither makes alone; the
+    /// others press, for closures beside rounded vowels.
+    Asked rounded(int i) const {
+        Asked out = none();
+        const auto unit = [&](const char* name, double share) {
+            if (const auto expansion = rig::expansion_named(rig_, name))
+                out.activation += share * expansion->excitation.cwiseMax(0.0);
+        };
+        unit("AU18", 0.4 + 0.6 * random(3000 + i, 0));
+        if (i % 3 == 2) {
+            unit("AU17", 0.3 * random(3000 + i, 1));
+            unit("AU24", 0.6 * random(3000 + i, 3));
+        } else {
+            unit("AU22", 0.25 + 0.6 * random(3000 + i, 1));
+        }
+        out.activation = out.activation.cwiseMin(1.0);
+        out.jaw_open = jaw_open_of(1 + (i % 3 == 2 ? 4 : 8) * random(3000 + i, 2));
         return out;
     }
 
