@@ -18,8 +18,8 @@ struct Lips {
 constexpr Lips kSpeech[] = {{"viseme_PP", 0, -1, 0.5},
                             {"viseme_SS", 2.8, 2, 0},
                             {"viseme_aa", 14.2, 0, 0},
-                            {"viseme_oh", 7.5, -7, 4.5},
-                            {"viseme_ou", 3.5, -9, 6}};
+                            {"viseme_oh", 8, -10, 4.6},
+                            {"viseme_ou", 5.5, -12, 5.2}};
 
 TEST(Visemes, LipsAreWhereSpeechHasThem) {
     const scene::RigFiles files =
