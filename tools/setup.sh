@@ -55,6 +55,8 @@ missing_packages() {
     while read -r package status; do
         if [[ $status == installed ]]; then installed+="$package "; fi
     done < <(dpkg-query -W -f='${Package} ${db:Status-Status}\n' "${packages[@]}" 2>/dev/null || true)
+    # A Node.js from elsewhere brings its own npm, and conflicts with Debian's.
+    if command -v npm >/dev/null && command -v node >/dev/null; then installed+="nodejs npm "; fi
     missing=()
     for package in "${packages[@]}"; do
         if [[ $installed != *" $package "* ]]; then missing+=("$package"); fi

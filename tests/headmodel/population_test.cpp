@@ -285,6 +285,12 @@ TEST(Person, SeedsOfTheFamilyGiveTheHeadsTheyGave) {
     EXPECT_EQ(hash, 6851907679060001857ull);
 }
 
+TEST(Person, ASeedDrawsFromThePopulationUnlessModel1IsAskedFor) {
+    EXPECT_EQ(chosen_identity({.seed = 3}).shape, random_person(3, {}, design()).shape);
+    EXPECT_EQ(chosen_identity({.seed = 3, .model = 1}).shape, random_identity(3, design()).shape);
+    EXPECT_EQ(chosen_identity({}).model, Model::kFamily);
+}
+
 TEST(Person, ErrorsNameThePlace) {
     const auto message = [](const IdentityChoice& choice) {
         return message_of([&] { chosen_identity(choice); });

@@ -80,7 +80,7 @@ class Laboratory : public testing::Test {
   protected:
     static void SetUpTestSuite() {
         folder = new Folder;
-        ASSERT_EQ(run("head --seed 7 -o two --quiet", folder->path()).code, 0);
+        ASSERT_EQ(run("head --model 1 --seed 7 -o two --quiet", folder->path()).code, 0);
         design = new Json(laboratory_design(*folder / "two/rig.json"));
         const stimuli::BatchReport report = stimuli::make_batch(options());
         ASSERT_TRUE(report.complete);

@@ -125,7 +125,7 @@ void add_head(CLI::App& app) {
     command->add_option("-o,--out", arguments->options.out, "The folder to write")->required();
     command->add_option("--identity", choice.identity,
                         "The head: a name in models/identities, or a .json file like those");
-    command->add_option("--seed", choice.seed, "Make a random adult head from this seed");
+    command->add_option("--seed", choice.seed, "Draw a person from the population of adults with this seed");
     command->add_option("--sex", choice.sex,
                         "-1: female, 1: male. Default: that of the identity, or else 0");
     command->add_option("--age", choice.age, "Age, 20 to 80 years");
@@ -135,7 +135,7 @@ void add_head(CLI::App& app) {
     command
         ->add_option("--model", choice.model,
                      "1: shapes vary the average adult. 2: they vary the mean of a sex, age and "
-                     "ancestry, and --seed draws from a population. Default: 1")
+                     "ancestry. Default: 2 with --seed or --ancestry, else 1")
         ->check(CLI::IsMember({1, 2}));
     command->add_option("--ancestry", choice.ancestry,
                         "Ancestry; the names are below. It means --model 2");

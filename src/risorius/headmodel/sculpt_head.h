@@ -47,8 +47,8 @@ struct IdentityChoice {
     std::optional<double> sex{}, age{};
     std::vector<std::string> shape{};  ///< "lips=1.2"
     std::optional<std::string> skin{}, iris{}, hair{};
-    std::optional<int> model{};             ///< 2: of the population; 1, if nothing else says so
-    std::optional<std::string> ancestry{};  ///< means model 2
+    std::optional<int> model{};             ///< 2: of the population; 1: varies the average adult
+    std::optional<std::string> ancestry{};  ///< means model 2, as a seed does
     std::vector<std::string> morph{};       ///< two names or files, and the share of the second
     std::vector<std::string> average{};     ///< names or files
     std::optional<double> exaggerate{};     ///< factor of what distinguishes the person

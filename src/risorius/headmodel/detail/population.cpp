@@ -74,9 +74,10 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
                                       : form < 0.7 ? (man ? "m" : "round")
                                       : form < 0.9 ? "widows_peak"
                                                    : "high";
-    // Skin and hair that aged earlier or later than most, by eight years as a standard deviation.
-    const double seems = person.age + 8 * std::clamp(draw.normal(), -2.0, 2.0);
-    person.hairdo.age_lines = to_hundredths(std::clamp((seems - 30) / 45, 0.0, 1.0));
+    // Skin that aged earlier or later than most, by five years as a standard deviation. The lines grow with it as in the named
+    // people, whose ages were read from pictures.
+    const double seems = person.age + 5 * std::clamp(draw.normal(), -2.0, 2.0);
+    person.hairdo.age_lines = to_hundredths(std::clamp((seems - 25) / 35, 0.0, 1.0));
     // In the mean 26 % of grey hair at 53, 32 % at 58, 40 % at 63 years (Panhard et al. 2012).
     const double greying = person.age + 10 * std::clamp(draw.normal(), -2.0, 2.0);
     person.hairdo.grey = to_hundredths(std::clamp((greying - 40) / 50, 0.0, 1.0));

@@ -25,6 +25,7 @@ class Creases {
         : scene_(scene),
           centre_(centre),
           skin_(linear_from_srgb(scene.appearance.skin_tone)),
+          dark_(std::clamp((0.30 - skin_.dot(Vec3(0.2126, 0.7152, 0.0722))) / 0.25, 0.0, 1.0)),
           random_(scene.appearance.seed * 7001U + 3U),
           // Appearance::age runs from 25 to 75 years.
           years_(25 + 50 * scene.appearance.age) {}
@@ -85,9 +86,9 @@ class Creases {
         const double strength = std::clamp(deep * scene_.appearance.age_lines, 0.0, 1.0);
         if (strength < 0.02 || line.size() < 2) return;
         const double width_m = 1e-3 * width_mm;
-        const Vec3 valley = skin_.cwiseProduct(Vec3(0.50, 0.36, 0.31)),
-                   shade = skin_.cwiseProduct(Vec3(0.72, 0.60, 0.56)),
-                   ridge = (1.18 * skin_).cwiseMin(1.0);
+        const Vec3 valley = (1 - 0.45 * dark_) * skin_.cwiseProduct(Vec3(0.50, 0.36, 0.31)),
+                   shade = (1 - 0.25 * dark_) * skin_.cwiseProduct(Vec3(0.72, 0.60, 0.56)),
+                   ridge = ((1.18 + 0.45 * dark_) * skin_).cwiseMin(1.0);
         ribbon(line, 2.6 * width_m, Vec3::Zero(), shade, 0.45 * strength);
         ribbon(line, 1.1 * width_m, Vec3(0, -1.9 * width_m, 0), ridge, 0.40 * strength);
         ribbon(line, 0.7 * width_m, Vec3::Zero(), valley, 0.58 * strength);
@@ -186,6 +187,7 @@ class Creases {
 
     const Scene& scene_;
     Vec3 centre_, skin_;
+    double dark_;  ///< 0..1; on dark skin the same shares of its colour are hardly seen
     RandomSequence random_;
     double years_;
     std::vector<StrokeVertex> strokes_;
