@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "python/python_fields.h"
 #include "python/python_values.h"
 #include "risorius/core/data_folder.h"
 #include "risorius/core/error.h"
@@ -131,6 +132,7 @@ class PythonFace {
         }
     }
 
+    const track::Drive& drive() const { return drive_; }
     const scene::RigFiles& files() const { return files_; }
     face::Face& face() { return face_; }
     const track::ChannelTable& channels() const { return channels_; }
@@ -226,6 +228,15 @@ py::dict muscle_dict(PythonFace& self, const std::string& muscle, const std::str
     out["force_n"] = state->force_n;
     out["stress_pa"] = state->stress_pa ? py::cast(*state->stress_pa) : py::none();
     return out;
+}
+
+Eigen::VectorXd rig_gradient_of(PythonFace& self, const Points& vertex_gradient,
+                                const std::vector<std::string>& paths) {
+    if (vertex_gradient.rows() != self.vertices().rows())
+        throw Error("vertex_gradient", std::to_string(self.vertices().rows()) + " rows",
+                    std::to_string(vertex_gradient.rows()));
+    const py::gil_scoped_release free;
+    return rig_gradient(self.face(), self.files().file, self.drive(), vertex_gradient, paths);
 }
 
 py::array picture(PythonFace& self, int width, int height, const std::string& camera, bool draft) {
@@ -365,6 +376,14 @@ void add_arrays(py::class_<PythonFace>& face) {
                 return Vec3(self.face().diagnostics().landmark(id));
             },
             py::arg("id"), "Position of a landmark, m, world frame.")
+        .def(
+            "fields", [](PythonFace& self) { return fields_dict(self.face()); },
+            "The fields that `risorius export --format vtu` writes, after the last step or "
+            "equilibrium: a dict of \"tissue\", \"fibres\" and \"solids\", each a dict of arrays, "
+            "which are copies. N nodes, C cells, m, world frame: rest and nodes, N x 3; cells, C x "
+            "corners; J, C, volume ratio; stress_pa, C x 6 (xx, yy, zz, xy, yz, xz), and "
+            "von_mises_pa, C; contact_pa, N. Of fibres and solids: column, direction (C x 3), "
+            "activation, stretch (fibre length over optimal length) and tension_n, C.")
         .def("muscle", &muscle_dict, py::arg("muscle"), py::arg("side"),
              "length_m, stretch, force_n and stress_pa of one side, \"l\" or \"r\", of a muscle. "
              "The force is isometric: that of this "
@@ -407,6 +426,14 @@ void add_face(py::module_& module) {
              "Derivatives of the vertices, K x V x 3: m per unit of activation of a column, or per "
              "unit of a channel. Call "
              "solve_equilibrium() before.")
+        .def(
+            "rig_gradient", &rig_gradient_of, py::arg("vertex_gradient"), py::arg("paths"),
+            "Derivatives of a function L of the vertices by numbers of the rig, one for each path: "
+            "dL per relative change of all numbers of the path.\n\n"
+            "vertex_gradient: dL/d(vertices), V x 3, in the equilibrium of the last "
+            "solve_equilibrium()\n"
+            "paths: as in a study, of \"tissue/\", \"skin/\" and \"anatomy/strength/\": "
+            "\"tissue/deep_shear_pa\", \"anatomy/strength/risorius\"")
         .def(
             "play",
             [](PythonFace& self, const py::object& script, const py::function& see,
