@@ -48,21 +48,21 @@ class PythonFace {
     void reset() {
         const track::Drive rest = drive_of({});
         face_.start([&](double) { return rest; });
-        keep(face_.pose());
+        moved();
     }
     /// Keeps the drive for the steps that follow.
     void set(const Values& values) { drive_ = drive_of(values); }
     bool solve_equilibrium(const std::optional<Values>& values) {
         if (values) set(*values);
         const bool converged = face_.solve_equilibrium(drive_.excitation, drive_).converged;
-        keep(face_.pose());
+        moved();
         return converged;
     }
     void step(const std::optional<Values>& values, int steps) {
         if (steps < 1) throw Error("steps", "1 or more", std::to_string(steps));
         if (values) set(*values);
         for (int i = 0; i < steps; ++i) face_.step([&](double) { return drive_; });
-        keep(face_.pose());
+        moved();
     }
 
     std::vector<Points> sensitivities(const std::vector<std::string>& names) {
@@ -102,7 +102,7 @@ class PythonFace {
             view_ = std::make_unique<render::OffscreenView>(*scene_, wanted);
             options_ = wanted;
         }
-        return view_->draw(scene::pose_for_view(pose_));
+        return view_->draw(scene::pose_for_view(pose()));
     }
 
     track::Drive drive_of(const Values& values) const {
@@ -136,7 +136,13 @@ class PythonFace {
     const scene::RigFiles& files() const { return files_; }
     face::Face& face() { return face_; }
     const track::ChannelTable& channels() const { return channels_; }
-    const Points& vertices() const { return vertices_; }
+    Eigen::Index vertex_count() { return face_.head().vertices.rows(); }
+    /// From the first call on, every step brings them up to date.
+    const Points& vertices() {
+        pose();
+        is_watched_ = true;
+        return vertices_;
+    }
     const std::vector<std::string>& columns() const { return columns_; }
 
   private:
@@ -144,6 +150,16 @@ class PythonFace {
     void keep(face::FacePose pose) {
         pose_ = std::move(pose);
         vertices_ = pose_.vertices;
+        is_posed_ = true;
+    }
+    // A pose takes half the time of a step, so it is made when somebody looks.
+    void moved() {
+        is_posed_ = false;
+        if (is_watched_) pose();
+    }
+    const face::FacePose& pose() {
+        if (!is_posed_) keep(face_.pose());
+        return pose_;
     }
 
     void add(const std::string& name, double value, track::Expansion& sum) const {
@@ -208,6 +224,7 @@ class PythonFace {
     track::Drive drive_;
     face::FacePose pose_;
     Points vertices_;
+    bool is_posed_ = false, is_watched_ = false;
     std::optional<render::Scene> scene_;
     render::ViewOptions options_{};
     std::unique_ptr<render::OffscreenView> view_;
@@ -232,8 +249,8 @@ py::dict muscle_dict(PythonFace& self, const std::string& muscle, const std::str
 
 Eigen::VectorXd rig_gradient_of(PythonFace& self, const Points& vertex_gradient,
                                 const std::vector<std::string>& paths) {
-    if (vertex_gradient.rows() != self.vertices().rows())
-        throw Error("vertex_gradient", std::to_string(self.vertices().rows()) + " rows",
+    if (vertex_gradient.rows() != self.vertex_count())
+        throw Error("vertex_gradient", std::to_string(self.vertex_count()) + " rows",
                     std::to_string(vertex_gradient.rows()));
     const py::gil_scoped_release free;
     return rig_gradient(self.face(), self.files().file, self.drive(), vertex_gradient, paths);
@@ -254,7 +271,7 @@ py::array sensitivity_array(PythonFace& self, const std::vector<std::string>& na
         const py::gil_scoped_release free;
         all = self.sensitivities(names);
     }
-    const py::ssize_t rows = self.vertices().rows();
+    const py::ssize_t rows = self.vertex_count();
     py::array_t<double> out({static_cast<py::ssize_t>(all.size()), rows, py::ssize_t{3}});
     for (std::size_t i = 0; i < all.size(); ++i)
         std::copy(all[i].data(), all[i].data() + all[i].size(),

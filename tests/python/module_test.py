@@ -67,6 +67,14 @@ class FaceTest(unittest.TestCase):
         self.assertGreater(activation.max(), 0.1)
         self.assertTrue(np.array_equal(vertices, self.face.vertices))
 
+    def test_vertices_that_are_looked_at_late_are_those_of_now(self):
+        self.assertIsNotNone(self.face.vertices)
+        other = risorius.Face()
+        for face in (self.face, other):
+            face.step({"AU12": 1}, 4)
+            face.step(steps=2)
+        self.assertTrue(np.array_equal(self.face.vertices, other.vertices))
+
     def test_an_array_keeps_its_face_alive(self):
         vertices = risorius.Face(quality="draft").vertices
         self.assertTrue(np.isfinite(vertices).all())
