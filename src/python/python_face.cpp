@@ -449,7 +449,9 @@ void add_face(py::module_& module) {
             "dL per relative change of all numbers of the path.\n\n"
             "vertex_gradient: dL/d(vertices), V x 3, in the equilibrium of the last "
             "solve_equilibrium()\n"
-            "paths: as in a study, of \"tissue/\", \"skin/\" and \"anatomy/strength/\": "
+            "paths: as in a study, of \"tissue/\", \"skin/\", \"anatomy/strength/\" and strength "
+            "and "
+            "moduli of \"anatomy/solids/\": "
             "\"tissue/deep_shear_pa\", \"anatomy/strength/risorius\"")
         .def(
             "play",

@@ -49,6 +49,14 @@ Eigen::VectorXd von_mises_of(const face::Tensors& stress_pa) {
     return out;
 }
 
+/// Whether the numbers of a path leave the nodes of tissue and muscles where they are.
+bool keeps_nodes(const std::string& path) {
+    const bool of_solids = path.starts_with("anatomy/solids/") &&
+                           (path.ends_with("/strength") || path.ends_with("_pa"));
+    return of_solids || path.starts_with("tissue/") || path.starts_with("skin/") ||
+           path.starts_with("anatomy/strength/");
+}
+
 /// The rig with all numbers of a path times `factor`.
 rig::RigDescription scaled(const Json& rig, const std::vector<std::string>& numbers, double factor,
                            const std::string& place) {
@@ -101,11 +109,12 @@ Eigen::VectorXd rig_gradient(face::Face& face, const std::filesystem::path& rig,
     Eigen::VectorXd out(static_cast<Eigen::Index>(paths.size()));
     for (std::size_t p = 0; p < paths.size(); ++p) {
         const std::string& path = paths[p];
-        if (path.rfind("tissue/", 0) != 0 && path.rfind("skin/", 0) != 0 &&
-            path.rfind("anatomy/strength/", 0) != 0)
-            throw Error("rig_gradient",
-                        "numbers of \"tissue/\", \"skin/\" or \"anatomy/strength/\"",
-                        "\"" + path + "\"");
+        if (!keeps_nodes(path))
+            throw Error(
+                "rig_gradient",
+                "numbers of \"tissue/\", \"skin/\" or \"anatomy/strength/\", or strength and "
+                "moduli of \"anatomy/solids/\"",
+                "\"" + path + "\"");
         const std::vector<std::string> numbers = study::rig_numbers(json, path, "rig_gradient");
         double slope = 0;
         for (const double side : {-1.0, 1.0}) {
