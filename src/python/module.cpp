@@ -7,7 +7,9 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "python/python_face.h"
+#include "python/python_monitor.h"
 #include "python/python_soft_body.h"
+#include "python/python_study.h"
 #include "python/python_values.h"
 #include "risorius/animate/animate.h"
 #include "risorius/core/data_folder.h"
@@ -20,21 +22,6 @@ namespace py = pybind11;
 namespace risorius::python {
 
 namespace {
-
-// Progress for a Python function, and Ctrl-C as Python sees it.
-ProgressMonitor monitor_for(const py::object& progress) {
-    ProgressMonitor monitor;
-    if (!progress.is_none())
-        monitor.progress = [&progress](double fraction, const std::string& what) {
-            const py::gil_scoped_acquire lock;
-            progress(fraction, what);
-        };
-    monitor.stopped = [] {
-        const py::gil_scoped_acquire lock;
-        return PyErr_CheckSignals() != 0;
-    };
-    return monitor;
-}
 
 py::dict render(const py::object& script, const std::filesystem::path& out,
                 const std::optional<std::filesystem::path>& rig,
@@ -94,6 +81,7 @@ PYBIND11_MODULE(_core, module) {
     add_errors(module);
     add_face(module);
     add_soft_body(module);
+    add_study(module);
     module.attr("__version__") = std::string(kVersion);
     module.def("set_data_folder", &set_data_folder, py::arg("folder"),
                "Sets the folder that holds rigs, models and samples.");

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "python/python_fields.h"
 #include "python/python_values.h"
 #include "risorius/core/data_folder.h"
 #include "risorius/core/error.h"
@@ -47,21 +48,21 @@ class PythonFace {
     void reset() {
         const track::Drive rest = drive_of({});
         face_.start([&](double) { return rest; });
-        keep(face_.pose());
+        moved();
     }
     /// Keeps the drive for the steps that follow.
     void set(const Values& values) { drive_ = drive_of(values); }
     bool solve_equilibrium(const std::optional<Values>& values) {
         if (values) set(*values);
         const bool converged = face_.solve_equilibrium(drive_.excitation, drive_).converged;
-        keep(face_.pose());
+        moved();
         return converged;
     }
     void step(const std::optional<Values>& values, int steps) {
         if (steps < 1) throw Error("steps", "1 or more", std::to_string(steps));
         if (values) set(*values);
         for (int i = 0; i < steps; ++i) face_.step([&](double) { return drive_; });
-        keep(face_.pose());
+        moved();
     }
 
     std::vector<Points> sensitivities(const std::vector<std::string>& names) {
@@ -101,7 +102,7 @@ class PythonFace {
             view_ = std::make_unique<render::OffscreenView>(*scene_, wanted);
             options_ = wanted;
         }
-        return view_->draw(scene::pose_for_view(pose_));
+        return view_->draw(scene::pose_for_view(pose()));
     }
 
     track::Drive drive_of(const Values& values) const {
@@ -131,10 +132,17 @@ class PythonFace {
         }
     }
 
+    const track::Drive& drive() const { return drive_; }
     const scene::RigFiles& files() const { return files_; }
     face::Face& face() { return face_; }
     const track::ChannelTable& channels() const { return channels_; }
-    const Points& vertices() const { return vertices_; }
+    Eigen::Index vertex_count() { return face_.head().vertices.rows(); }
+    /// From the first call on, every step brings them up to date.
+    const Points& vertices() {
+        pose();
+        is_watched_ = true;
+        return vertices_;
+    }
     const std::vector<std::string>& columns() const { return columns_; }
 
   private:
@@ -142,6 +150,16 @@ class PythonFace {
     void keep(face::FacePose pose) {
         pose_ = std::move(pose);
         vertices_ = pose_.vertices;
+        is_posed_ = true;
+    }
+    // A pose takes half the time of a step, so it is made when somebody looks.
+    void moved() {
+        is_posed_ = false;
+        if (is_watched_) pose();
+    }
+    const face::FacePose& pose() {
+        if (!is_posed_) keep(face_.pose());
+        return pose_;
     }
 
     void add(const std::string& name, double value, track::Expansion& sum) const {
@@ -206,6 +224,7 @@ class PythonFace {
     track::Drive drive_;
     face::FacePose pose_;
     Points vertices_;
+    bool is_posed_ = false, is_watched_ = false;
     std::optional<render::Scene> scene_;
     render::ViewOptions options_{};
     std::unique_ptr<render::OffscreenView> view_;
@@ -228,6 +247,15 @@ py::dict muscle_dict(PythonFace& self, const std::string& muscle, const std::str
     return out;
 }
 
+Eigen::VectorXd rig_gradient_of(PythonFace& self, const Points& vertex_gradient,
+                                const std::vector<std::string>& paths) {
+    if (vertex_gradient.rows() != self.vertex_count())
+        throw Error("vertex_gradient", std::to_string(self.vertex_count()) + " rows",
+                    std::to_string(vertex_gradient.rows()));
+    const py::gil_scoped_release free;
+    return rig_gradient(self.face(), self.files().file, self.drive(), vertex_gradient, paths);
+}
+
 py::array picture(PythonFace& self, int width, int height, const std::string& camera, bool draft) {
     Image image;
     {
@@ -243,7 +271,7 @@ py::array sensitivity_array(PythonFace& self, const std::vector<std::string>& na
         const py::gil_scoped_release free;
         all = self.sensitivities(names);
     }
-    const py::ssize_t rows = self.vertices().rows();
+    const py::ssize_t rows = self.vertex_count();
     py::array_t<double> out({static_cast<py::ssize_t>(all.size()), rows, py::ssize_t{3}});
     for (std::size_t i = 0; i < all.size(); ++i)
         std::copy(all[i].data(), all[i].data() + all[i].size(),
@@ -365,6 +393,14 @@ void add_arrays(py::class_<PythonFace>& face) {
                 return Vec3(self.face().diagnostics().landmark(id));
             },
             py::arg("id"), "Position of a landmark, m, world frame.")
+        .def(
+            "fields", [](PythonFace& self) { return fields_dict(self.face()); },
+            "The fields that `risorius export --format vtu` writes, after the last step or "
+            "equilibrium: a dict of \"tissue\", \"fibres\" and \"solids\", each a dict of arrays, "
+            "which are copies. N nodes, C cells, m, world frame: rest and nodes, N x 3; cells, C x "
+            "corners; J, C, volume ratio; stress_pa, C x 6 (xx, yy, zz, xy, yz, xz), and "
+            "von_mises_pa, C; contact_pa, N. Of fibres and solids: column, direction (C x 3), "
+            "activation, stretch (fibre length over optimal length) and tension_n, C.")
         .def("muscle", &muscle_dict, py::arg("muscle"), py::arg("side"),
              "length_m, stretch, force_n and stress_pa of one side, \"l\" or \"r\", of a muscle. "
              "The force is isometric: that of this "
@@ -407,6 +443,16 @@ void add_face(py::module_& module) {
              "Derivatives of the vertices, K x V x 3: m per unit of activation of a column, or per "
              "unit of a channel. Call "
              "solve_equilibrium() before.")
+        .def(
+            "rig_gradient", &rig_gradient_of, py::arg("vertex_gradient"), py::arg("paths"),
+            "Derivatives of a function L of the vertices by numbers of the rig, one for each path: "
+            "dL per relative change of all numbers of the path.\n\n"
+            "vertex_gradient: dL/d(vertices), V x 3, in the equilibrium of the last "
+            "solve_equilibrium()\n"
+            "paths: as in a study, of \"tissue/\", \"skin/\", \"anatomy/strength/\" and strength "
+            "and "
+            "moduli of \"anatomy/solids/\": "
+            "\"tissue/deep_shear_pa\", \"anatomy/strength/risorius\"")
         .def(
             "play",
             [](PythonFace& self, const py::object& script, const py::function& see,

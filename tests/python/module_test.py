@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The Python module: numbers of the library, arrays without copies, errors, samples and the wheel.
+"""The Python module: numbers of the library, arrays without copies, errors, studies, samples and the wheel.
 
-    module_test.py FOLDER_OF_THE_MODULE FOLDER_OF_THE_SOURCES
+    module_test.py FOLDER_OF_THE_MODULE FOLDER_OF_THE_SOURCES PROGRAM [TEST...]
 """
 import json
 import os
@@ -12,11 +12,12 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 import xml.etree.ElementTree as ElementTree
 import zipfile
 
-MODULE, SOURCES = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+MODULE, SOURCES, PROGRAM = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3]
 sys.path.insert(0, str(MODULE))
 os.environ["RISORIUS_DATA"] = str(SOURCES)
 
@@ -66,6 +67,14 @@ class FaceTest(unittest.TestCase):
         self.assertGreater(activation.max(), 0.1)
         self.assertTrue(np.array_equal(vertices, self.face.vertices))
 
+    def test_vertices_that_are_looked_at_late_are_those_of_now(self):
+        self.assertIsNotNone(self.face.vertices)
+        other = risorius.Face()
+        for face in (self.face, other):
+            face.step({"AU12": 1}, 4)
+            face.step(steps=2)
+        self.assertTrue(np.array_equal(self.face.vertices, other.vertices))
+
     def test_an_array_keeps_its_face_alive(self):
         vertices = risorius.Face(quality="draft").vertices
         self.assertTrue(np.isfinite(vertices).all())
@@ -90,6 +99,52 @@ class FaceTest(unittest.TestCase):
             ends.append(self.face.vertices.copy())
         difference = (ends[1] - ends[0]) / (2 * step)
         self.assertLess(np.abs(slope[0] - difference).max(), 0.1 * np.abs(difference).max())
+
+    def test_rig_gradient_is_the_slope_by_numbers_of_the_rig(self):
+        # L: the height of the left brow; slopes by faces of rigs with other numbers
+        drive = {"frontalis_medial": 0.3}
+        corner = int(np.argmin(np.linalg.norm(self.face.rest_vertices - self.face.landmark("bm_l"), axis=1)))
+        self.face.solve_equilibrium(drive)
+        of_height = np.zeros(self.face.vertices.shape)
+        of_height[corner, 1] = 1
+        paths = ["tissue/deep_shear_pa", "anatomy/strength/frontalis_medial", "anatomy/solids/zygomaticus_major/strength"]
+        slopes = self.face.rig_gradient(of_height, paths)
+        self.assertLess(slopes[0], 0)  # stiffer tissue moves less
+        text = (SOURCES / "rigs/adult/rig.json").read_text().replace("../../", str(SOURCES) + "/").replace(
+            "../standard", str(SOURCES / "rigs/standard"))
+        with tempfile.TemporaryDirectory() as folder:
+            heights = []
+            for shear_pa in (910 * 0.8, 910 * 1.25):
+                rig = json.loads(text)
+                rig.setdefault("tissue", {})["deep_shear_pa"] = shear_pa
+                file = pathlib.Path(folder, "rig.json")
+                file.write_text(json.dumps(rig))
+                face = risorius.Face(file)
+                face.solve_equilibrium(drive)
+                heights.append(face.vertices[corner, 1])
+        slope = (heights[1] - heights[0]) / np.log(1.25 / 0.8)
+        self.assertLess(abs(slopes[0] - slope), 0.1 * abs(slope))
+        # A muscle with k times the strength at activation a pulls as one with k a, but for what it resists when stretched.
+        by_activation = 0.3 * self.face.sensitivities(["frontalis_medial.l", "frontalis_medial.r"])[:, corner, 1].sum()
+        self.assertLess(abs(slopes[1] - by_activation), 0.15 * abs(by_activation))
+        self.assertLess(abs(slopes[2]), 0.01 * abs(slopes[1]))  # a muscle at rest, far away
+        for wrong, part in ((["anatomy/thickness/points/*/thickness_mm"], "numbers of"), (["tissue/none"], "a number of the rig")):
+            with self.assertRaises(risorius.Error) as caught:
+                self.face.rig_gradient(of_height, wrong)
+            self.assertIn(part, str(caught.exception))
+
+    def test_fields_are_those_of_the_muscles_and_the_tissue(self):
+        self.face.solve_equilibrium({"zygomaticus_major": 0.5})
+        fields = self.face.fields()
+        self.assertEqual(set(fields), {"tissue", "fibres", "solids"})
+        tissue, solids = fields["tissue"], fields["solids"]
+        self.assertEqual(tissue["stress_pa"].shape, (len(self.face.tets), 6))
+        self.assertTrue(np.array_equal(tissue["cells"], self.face.tets))
+        self.assertGreater(tissue["von_mises_pa"].max(), 500)
+        active = solids["column"] == self.face.columns.index("zygomaticus_major.l")
+        self.assertAlmostEqual(solids["activation"][active].mean(), 0.5, places=6)
+        self.assertLess(solids["stretch"][active].mean(), 0.99)
+        self.assertLess(np.abs(solids["J"] - 1).max(), 0.1)
 
     def test_pictures_are_arrays(self):
         rest = self.face.render(96, 128, draft=True)
@@ -159,6 +214,67 @@ class RenderTest(unittest.TestCase):
             self.assertEqual(os.listdir(folder), [])
 
 
+class StudyTest(unittest.TestCase):
+    VARY = {"force": {"of": "tissue/force_scale", "factor": {"log_uniform": [0.5, 2]}},
+            "each": {"of": "anatomy/strength/*", "factor": {"uniform": [0.9, 1.1]}, "each": True}}
+
+    def test_values_are_those_of_the_program(self):
+        wanted = {"poses": ["AU1", "AU12"], "landmarks": ["ch_l", "bm_l"], "vary": self.VARY}
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "study.json")
+            file.write_text(json.dumps({
+                "format": "risorius-study", "version": 1, "name": "two", "rig": str(SOURCES / "rigs/adult/rig.json"),
+                "sample": {"method": "latin_hypercube", "count": 2, "seed": 5, "replicates": 20}, **wanted}))
+            subprocess.run([PROGRAM, "study", str(file), "-o", folder + "/out", "--quiet"], check=True)
+            table = {name: [line.split("\t") for line in pathlib.Path(folder, "out", name + ".tsv").read_text().splitlines()[1:]]
+                     for name in ("samples", "displacements", "spread", "indices")}
+        seen = []
+        found = risorius.study(**wanted, samples=2, method="latin_hypercube", seed=5, replicates=20,
+                               progress=lambda fraction, what: seen.append(fraction))
+        self.assertEqual(seen, sorted(seen))
+        self.assertEqual((found.parameters, found.poses, found.landmarks), (["force", "each"], ["AU1", "AU12"], ["ch_l", "bm_l"]))
+        self.assertEqual(found.displacements_mm.shape, (9, 2, 2, 3))
+        self.assertFalse(found.displacements_mm.flags.owndata)
+        self.assertFalse(found.displacements_mm.flags.writeable)
+        self.assertEqual(found.matrix, [row[1] for row in table["samples"]])
+        self.assertEqual(found.row.tolist(), [-1] + [int(row[2]) for row in table["samples"][1:]])
+        np.testing.assert_allclose(found.samples, np.array([row[3:5] for row in table["samples"]], float), rtol=1e-8)
+        self.assertEqual(found.in_equilibrium.all(axis=1).tolist(), [row[5] == "1" for row in table["samples"]])
+
+        def same(values, rows, first, digits):
+            texts = [["%.*f" % (digits, value + 0.0) for value in row] for row in values]
+            self.assertEqual([[t.replace("-0." + "0" * digits, "0." + "0" * digits) for t in row] for row in texts],
+                             [row[first:] for row in rows])
+
+        same(found.displacements_mm.reshape(-1, 3), table["displacements"], 3, 4)
+        keys = ("rig_mm", "mean_mm", "sd_mm", "p5_mm", "p95_mm", "away_p95_mm")
+        same(np.stack([found.spread[key].ravel() for key in keys], axis=1), table["spread"], 2, 3)
+        of_all = np.concatenate([found.first_of_pose, found.total_of_pose], axis=-1).reshape(-1, 6)
+        of_each = np.concatenate([found.first, found.total], axis=-1).reshape(-1, 6)
+        same(np.concatenate([of_all, of_each]), table["indices"], 3, 4)
+
+    def test_without_indices_there_are_none(self):
+        found = risorius.study(SOURCES / "rigs/adult/rig.json", poses=["AU1"], landmarks=["bm_l"], vary=self.VARY, samples=2,
+                               method="random", indices=False, quality="draft")
+        self.assertEqual((found.first.shape, len(found.samples)), ((1, 1, 0, 3), 3))
+
+    def test_errors_name_the_place(self):
+        for wrong, part in (({"poses": ["AU121"]}, "study:/poses/0"), ({"method": "sobel"}, "study:/sample/method"),
+                            ({"samples": 1}, "study:/sample/count"), ({"vary": {"p": {"of": "tissue/none"}}}, "study:/vary/p")):
+            with self.assertRaises(risorius.Error) as caught:
+                risorius.study(**{"poses": ["AU1"], "vary": self.VARY, **wrong})
+            self.assertIn(part, str(caught.exception))
+
+    def test_ctrl_c_stops(self):
+        threading.Timer(2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        begin = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            risorius.study(poses=["AU1"], vary=self.VARY, samples=1024)
+        self.assertLess(time.monotonic() - begin, 60)  # all faces would take an hour
+        with self.assertRaises(ZeroDivisionError):
+            risorius.study(poses=["AU1"], vary=self.VARY, progress=lambda fraction, what: 1 / 0)
+
+
 class SampleTest(unittest.TestCase):
     def run_sample(self, name, *arguments):
         environment = {**os.environ, "PYTHONPATH": str(MODULE)}
@@ -222,6 +338,11 @@ class SampleTest(unittest.TestCase):
         self.assertEqual(len(rows), 10)
         self.assertGreater(float(rows[3][2]), float(rows[1][2]))
 
+    def test_dependence(self):
+        lines = self.run_sample("dependence.py", 2).splitlines()
+        self.assertTrue(lines[0].startswith("9 faces; the corner of the mouth moves by"), lines)
+        self.assertEqual([line.split("\t")[0] for line in lines[2:]], ["fat", "force"])
+
     def test_play(self):
         with tempfile.TemporaryDirectory() as folder:
             self.assertEqual(self.run_sample("play.py", SOURCES / "samples/smile/script.json", folder + "/p.tsv").split()[1], "frames")
@@ -250,4 +371,4 @@ class WheelTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:], verbosity=2)

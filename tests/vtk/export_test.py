@@ -191,8 +191,9 @@ class Exported(unittest.TestCase):
             self.run_export(root, "appended", root / "out")
             face = risorius.Face(SOURCE + "/rigs/adult/rig.json", quality="draft")
             seen = {}
-            face.play(still, lambda t_s: seen.update({round(t_s, 6): (numpy.array(face.vertices), numpy.array(face.nodes))}))
-            vertices, nodes = seen[0.5]
+            face.play(still, lambda t_s: seen.update({
+                round(t_s, 6): (numpy.array(face.vertices), numpy.array(face.nodes), face.fields())}))
+            vertices, nodes, fields = seen[0.5]
             tissue = strict_reader.read_mesh(root / "out" / "tissue_0002.vtu")
             solids = strict_reader.read_mesh(root / "out" / "solids_0002.vtu")
             skin = strict_reader.read_mesh(root / "out" / "skin_0002.vtp")
@@ -201,6 +202,16 @@ class Exported(unittest.TestCase):
             self.assertLess(numpy.abs(numpy.array(tissue["points"]) - nodes[:count]).max(), 1e-6)
             self.assertLess(numpy.abs(numpy.array(solids["points"]) - nodes[count:]).max(), 1e-6)
             self.assertEqual(tissue["cells"], face.tets.tolist())
+            fibres = strict_reader.read_mesh(root / "out" / "fibres_0002.vtu")
+            for name, mesh in (("tissue", tissue), ("fibres", fibres), ("solids", solids)):
+                self.assertEqual([list(cell) for cell in mesh["cells"]], fields[name]["cells"].tolist())
+                of = {**mesh["cell_data"], **mesh["point_data"]}
+                compared = [key for key in of if key in fields[name]]
+                self.assertGreaterEqual(len(compared), {"tissue": 4, "fibres": 5, "solids": 8}[name])
+                for key in compared:
+                    values = numpy.array(of[key][1]).reshape(fields[name][key].shape)
+                    scale = max(numpy.abs(values).max(), 1e-9)
+                    self.assertLess(numpy.abs(values - fields[name][key]).max(), 1e-6 * scale, f"{name}, {key}")
             self.assertLess(self.farthest(numpy, skin["points"], vertices), 1e-6)
             moved = numpy.array(face.rest_vertices)
             self.assertGreater(self.farthest(numpy, skin["points"], moved), 1e-3)

@@ -13,9 +13,9 @@ Positions are in metres: x to the subject's left, y up, z forward. Errors in inp
 import os as _os
 import pathlib as _pathlib
 
-from ._core import Error, Face, RunError, SoftBody, __version__, data_folder, render, set_data_folder, write_feb
+from ._core import Error, Face, RunError, SoftBody, Study, __version__, data_folder, render, set_data_folder, study, write_feb
 
-__all__ = ["Error", "Face", "RunError", "SoftBody", "data_folder", "render", "set_data_folder", "write_feb", "__version__"]
+__all__ = ["Error", "Face", "RunError", "SoftBody", "Study", "data_folder", "render", "set_data_folder", "study", "write_feb", "__version__"]
 
 # A wheel brings the data along.
 _data = _pathlib.Path(__file__).parent / "data"

@@ -14,8 +14,8 @@
 #include "risorius/scene/rig_files.h"
 #include "risorius/study/detail/study_charts.h"
 #include "risorius/study/detail/study_page.h"
-#include "risorius/study/detail/study_results.h"
 #include "risorius/study/detail/study_tables.h"
+#include "risorius/study/study_results.h"
 
 namespace risorius::study {
 
@@ -62,8 +62,10 @@ class SampledFace {
     scene::LandmarkPoints points_;
 };
 
-StudyResults simulate(const StudyDescription& study, const SampledRigs& rigs, int threads,
-                      const ProgressMonitor& monitor) {
+}  // namespace
+
+StudyResults simulate_study(const StudyDescription& study, const SampledRigs& rigs, int threads,
+                            const ProgressMonitor& monitor) {
     const scene::RigFiles files = scene::read_rig_files(study.rig, monitor.stopped);
     const auto poses = static_cast<Eigen::Index>(study.poses.size());
     const auto columns = static_cast<Eigen::Index>(3 * study.landmarks.size());
@@ -71,7 +73,8 @@ StudyResults simulate(const StudyDescription& study, const SampledRigs& rigs, in
     StudyResults results;
     results.moved_mm.resize(runs, poses * columns);
     results.in_equilibrium.resize(runs, poses);
-    TaskProgress progress(monitor, static_cast<int>(runs));
+    const ProgressMonitor making = monitor.subrange(0, 0.98);
+    TaskProgress progress(making, static_cast<int>(runs));
     parallel_for(static_cast<int>(runs), threads, [&](int r) {
         const Run& run = rigs.runs()[static_cast<std::size_t>(r)];
         const std::string name = "face " + std::to_string(r);
@@ -84,10 +87,10 @@ StudyResults simulate(const StudyDescription& study, const SampledRigs& rigs, in
             results.moved_mm.block(r, p * columns, 1, columns) = moved_mm;
         }
     });
+    monitor.report(0.98, "indices");
+    analyse(study, rigs.runs(), results);
     return results;
 }
-
-}  // namespace
 
 StudyDescription check_study(const std::filesystem::path& file) {
     StudyDescription study = read_study(file);
@@ -99,9 +102,7 @@ Json run_study(const StudyOptions& options, const ProgressMonitor& monitor) {
     const StudyDescription study = read_study(options.study);
     const SampledRigs rigs(study);
     report::AtomicFolder folder(options.out);
-    StudyResults results = simulate(study, rigs, options.threads, monitor.subrange(0, 0.98));
-    monitor.report(0.98, "indices");
-    analyse(study, rigs.runs(), results);
+    const StudyResults results = simulate_study(study, rigs, options.threads, monitor);
 
     std::vector<std::string> files{"index.html", "results.json"};
     const auto write = [&](const std::string& name, const std::string& text) {

@@ -7,7 +7,9 @@
 
 #include "risorius/core/json_cursor.h"
 #include "risorius/core/progress_monitor.h"
+#include "risorius/study/sampled_rigs.h"
 #include "risorius/study/study_description.h"
+#include "risorius/study/study_results.h"
 
 namespace risorius::study {
 
@@ -20,6 +22,12 @@ struct StudyOptions {
 /// Reads a study and checks that its rig may have all values of the sample. Throws Error.
 StudyDescription check_study(const std::filesystem::path& file);
 
+/// Makes the faces of a study, puts each into its poses, and computes spread and indices. Every pose is an equilibrium that is searched from
+/// rest. Displacements are from the head at rest, in mm of this head. Results do not depend on `threads`; 0: as many as the machine has. Throws
+/// Error, and Interrupted when the monitor asks to stop.
+StudyResults simulate_study(const StudyDescription& study, const SampledRigs& rigs, int threads,
+                            const ProgressMonitor& monitor = {});
+
 /// Runs a study, writes the folder, and returns its results.json:
 ///
 ///   index.html                 parameters, charts and tables
@@ -30,8 +38,7 @@ StudyDescription check_study(const std::filesystem::path& file);
 ///   results.json               spread and indices
 ///   indices_POSE.*, spread_POSE.*    charts
 ///
-/// Every pose is an equilibrium that is searched from rest. Displacements are from the head at rest, in mm of this head. Throws Error, and
-/// Interrupted when the monitor asks to stop.
+/// Throws as simulate_study() does.
 Json run_study(const StudyOptions& options, const ProgressMonitor& monitor = {});
 
 }  // namespace risorius::study

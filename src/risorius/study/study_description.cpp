@@ -14,7 +14,7 @@
 #include "risorius/rig/expression_drive.h"
 #include "risorius/rig/rig_description.h"
 #include "risorius/sensitivity/sobol_sequence.h"
-#include "risorius/study/detail/rig_numbers.h"
+#include "risorius/study/rig_numbers.h"
 
 namespace risorius::study {
 
@@ -202,13 +202,17 @@ int StudyDescription::runs() const {
 }
 
 StudyDescription read_study(const std::filesystem::path& file) {
-    const JsonCursor json = JsonCursor::read_file(file);
+    StudyDescription study = read_study(JsonCursor::read_file(file));
+    study.file = file;
+    return study;
+}
+
+StudyDescription read_study(const JsonCursor& json) {
     json.at("format").one_of({"risorius-study"});
     json.allow_keys(
         {"format", "version", "name", "rig", "quality", "poses", "landmarks", "vary", "sample"});
     json.at("version").integer(1, 1);
     StudyDescription study;
-    study.file = file;
     study.name = json.at("name").string();
     study.rig = existing_file(json.at("rig"));
     study.rig_json = std::make_shared<const Json>(rig::resolved_rig(study.rig));

@@ -61,5 +61,6 @@ struct StudyDescription {
 
 /// Reads a study and its rig. Throws Error with file, place, and the expected and the found value.
 StudyDescription read_study(const std::filesystem::path& file);
+StudyDescription read_study(const JsonCursor& json);
 
 }  // namespace risorius::study

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "risorius/plot/chart.h"
-#include "risorius/study/detail/study_results.h"
+#include "risorius/study/study_results.h"
 
 namespace risorius::study {
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "risorius/study/detail/study_results.h"
+#include "risorius/study/study_results.h"
 
 namespace risorius::study {
 

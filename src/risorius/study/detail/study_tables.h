@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "risorius/study/detail/study_results.h"
+#include "risorius/study/study_results.h"
 
 namespace risorius::study {
 

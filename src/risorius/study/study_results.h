@@ -9,7 +9,7 @@
 
 #include "risorius/core/json_cursor.h"
 #include "risorius/sensitivity/sobol_indices.h"
-#include "risorius/study/detail/sampled_rigs.h"
+#include "risorius/study/sampled_rigs.h"
 #include "risorius/study/study_description.h"
 
 namespace risorius::study {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/study/detail/rig_numbers.h"
+#include "risorius/study/rig_numbers.h"
 
 #include <charconv>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/study/detail/study_results.h"
+#include "risorius/study/study_results.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

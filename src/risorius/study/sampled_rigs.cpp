@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/study/detail/sampled_rigs.h"
+#include "risorius/study/sampled_rigs.h"
 
 #include <algorithm>
 #include <limits>
