@@ -329,6 +329,17 @@ TEST(Sound, OfAnHourCostsNoMemory) {
     EXPECT_LT(peak_memory_kB() - before_kB, kMost_kB) << "it was 700 MB and more";
 }
 
+TEST(Sound, OfDaysIsRefusedBeforeItIsDecoded) {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "days.wav";
+    constexpr std::uint32_t kBytes = 4'000'000'400u;
+    write_bytes(file, wav_of(1, 16, "", kBytes));
+    fs::resize_file(file, fs::file_size(file) + kBytes);  // zeros that take no disk
+    EXPECT_EQ(
+        without_folder(message_of([&] { open_recording(file); }), folder),
+        "days.wav: expected at most 2e9 samples in all channels, six hours in stereo, found more");
+}
+
 TEST(Sound, NamesWhatIsWrongWithAFile) {
     const TemporaryFolder folder;
     const auto message = [&](const std::string& name) {

@@ -115,7 +115,7 @@ TEST(Textures, AFileThatIsNoPictureIsRefused) {
         EXPECT_EQ(message_of([&] { read_texture(texture); }),
                   (folder() / "words.png").string() +
                       ": expected a picture (PNG, JPEG, TGA, BMP, TIFF, WebP), found another kind "
-                      "of file, or one cut short");
+                      "of file, one cut short, or more than 100 million pixels");
     }
 }
 

@@ -9,6 +9,7 @@
 #include "risorius/core/error.h"
 #include "risorius/core/read_file.h"
 #include "risorius/media/detail/ffmpeg.h"
+#include "risorius/media/image_file.h"
 
 namespace risorius::media {
 
@@ -88,8 +89,6 @@ Image rgba_of(const AVFrame& picture, const std::string& name) {
 
 /// `bytes`: of the file. A large picture needs a large file, unless it is a damaged one that states any size.
 CodecPtr codec_for(const AVCodec* decoder, std::size_t bytes) {
-    constexpr std::int64_t kMostPixels =
-        300'000'000;  // 16,384 squared, the largest that graphics cards take
     constexpr std::int64_t kOfSmallFile = 20'000'000;  // 4096 squared, of one colour
     constexpr std::int64_t kOfEachByte = 10'000;       // what compression by zlib can reach
     CodecPtr codec(avcodec_alloc_context3(decoder));
@@ -140,7 +139,8 @@ std::optional<Image> read_tga(const std::vector<std::uint8_t>& bytes, const std:
 
 Image read_picture(const std::vector<std::uint8_t>& bytes, const std::string& name) {
     silence_ffmpeg();
-    const Error no_picture(name, kPicture, "another kind of file, or one cut short");
+    const Error no_picture(name, kPicture,
+                           "another kind of file, one cut short, or more than 100 million pixels");
     // FFmpeg does not know a TGA by its first bytes.
     if (may_be_tga(bytes, name))
         if (const auto tga = read_tga(bytes, name)) return *tga;
