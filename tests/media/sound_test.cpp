@@ -350,6 +350,10 @@ TEST(Sound, NamesWhatIsWrongWithAFile) {
     EXPECT_EQ(message("text.wav"),
               "text.wav: expected a sound file, found another kind of file, or one cut short");
     const std::string whole = wav_bytes(click(4800, 2400, 48000), 48000);
+    write_bytes(folder / "whole.wav", whole);
+    write_bytes(folder / "list.wav", "ffconcat version 1.0\nfile whole.wav\n");
+    EXPECT_EQ(message("list.wav"),
+              "list.wav: expected a sound file, found another kind of file, or one cut short");
     write_bytes(folder / "cut.wav", whole.substr(0, whole.size() / 2));
     EXPECT_EQ(message("cut.wav"),
               "cut.wav: expected as much sound as its header says, found 4822 bytes less");
