@@ -76,7 +76,8 @@ COMMANDS = {
 AS = [name for name in COMMANDS if name.startswith("import --as")]
 ALL = [name for name in COMMANDS if name not in AS]
 USES = {
-    "no_files": ALL, "any_json": [name for name in ALL if name not in ("align", "speak", "speak --audio")],
+    "no_files": [name for name in ALL if name != "speak"],  # which says the name of a file that is not there
+    "any_json": [name for name in ALL if name not in ("align", "speak", "speak --audio")],
     "scripts": ["check", "render", "sheet", "export", "speak --script", "shapes --script", "render --against",
     "render --rig"],
     "designs": ["check", "batch --plan"], "studies": ["check", "study --plan", "figure"],
