@@ -105,6 +105,27 @@ TEST(ReadFile, ReadsPipes) {
     EXPECT_EQ(read_file(file, kNote), std::string(300'000, 'x'));
 }
 
+TEST(ReadFile, WaitsForAWriterButNotForEver) {
+    const TemporaryFolder any;
+    const fs::path file = any.path() / "pipe";
+    ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+    EXPECT_EQ(
+        message_of([&] { read_file(file, kNote); }),
+        file.string() + ": expected a note, found a pipe into which nobody has written for 10 s");
+    // A writer that says nothing for a while is waited for, and one that says nothing at all is an empty file.
+    std::thread late([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        std::ofstream out(file, std::ios::binary);
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        out << "late";
+    });
+    EXPECT_EQ(read_file(file, kNote), "late");
+    late.join();
+    std::thread silent([&] { std::ofstream out(file, std::ios::binary); });
+    EXPECT_EQ(read_file(file, kNote), "");
+    silent.join();
+}
+
 TEST(ReadFile, LeavesAPipeWithoutEndAtTheLimit) {
     const TemporaryFolder any;
     const fs::path file = any.path() / "pipe";

@@ -162,6 +162,7 @@ int try_each(int number) {
         std::ofstream(setting("FAULT_EACH") + "/of_threads", std::ios::app) << number << "\n";
         return 0;
     }
+    if (number < std::atoi(setting("FAULT_FROM").c_str())) return 0;
     int part = 1, of = 1;
     if (std::sscanf(setting("FAULT_PART").c_str(), "%d/%d", &part, &of) == 2 &&
         (number - part) % of != 0)

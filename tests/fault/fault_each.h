@@ -9,6 +9,7 @@
 ///   FAULT_LIST    the faults: values of errno, and signals with a minus, such as "28,5,-9"
 ///   FAULT_TURN    a number: only one fault of the list for each operation, the next one for the next operation; counted from this one
 ///   FAULT_PART    "2/5": only every fifth operation from the second on
+///   FAULT_FROM    only operations from this number on
 ///
 /// A copy has only the thread that was at the operation. So the program must be told to work with one; codecs have one by FAULT_ONE_THREAD,
 /// llvmpipe by LP_NUM_THREADS=0. Operations of other threads are only listed, in the file "of_threads". Needs the right to mount.

@@ -10,6 +10,7 @@ hidden file beside it. Prints the number of operations and runs of each command.
     io_errors.py PROGRAM LIBRARY --all        every operation with every fault, which takes hours
     io_errors.py PROGRAM LIBRARY --copies     the same in minutes: the run is copied at each operation, see fault_each.h; needs root
     io_errors.py ... --copies --turn 0        with one fault for each operation, which changes from one to the next; 0 to 5: all of them
+    io_errors.py ... --copies --from 600      operations from this number on, such as those behind the last one of a run that was cut off
     io_errors.py ... --part 2/5               of these, every fifth from the second on: the parts may run one after the other
 """
 import argparse
@@ -120,10 +121,10 @@ def all_faults():
     return faults + [({"FAULT_SIGNAL": str(int(s))}, s.name) for s in SIGNALS]
 
 
-def run(program, arguments, out, environment=None):
+def run(program, arguments, out, environment=None, timeout_s=900):
     command = [program] + [str(word).format(out=out) for word in arguments]
     return subprocess.run(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                          env={**os.environ, "RISORIUS_DATA": str(ROOT), **(environment or {})}, timeout=900)
+                          env={**os.environ, "RISORIUS_DATA": str(ROOT), **(environment or {})}, timeout=timeout_s)
 
 
 class Loop:
@@ -232,7 +233,7 @@ ALONE = {"FAULT_ONE_THREAD": "1", "LP_NUM_THREADS": "0"}
 class Copies(Loop):
     """Tries each fault in a copy of one run. States that the next run must treat alike are run once more once."""
 
-    def each(self, names, part, turn):
+    def each(self, names, part, turn, first):
         chosen = [(settings, name) for settings, name in all_faults() if not names or name in names]
         numbers = {int(s.get("FAULT_ERROR", 0)) or -int(s["FAULT_SIGNAL"]): name for s, name in chosen}
         begin, total = time.monotonic(), 0
@@ -243,7 +244,7 @@ class Copies(Loop):
             (each / "seen").mkdir(parents=True)
             for pipe in ("asked", "answered"):
                 os.mkfifo(each / pipe)
-            child = multiprocessing.Process(target=self.copied_run, args=(out, each, numbers, part, turn))
+            child = multiprocessing.Process(target=self.copied_run, args=(out, each, numbers, part, turn, first))
             child.start()
             # Both ends of each pipe are open, so that nobody waits for the other.
             asked, answered = (os.open(each / pipe, os.O_RDWR) for pipe in ("asked", "answered"))
@@ -264,17 +265,17 @@ class Copies(Loop):
                 self.tell("the run that is copied", "at its end", (child.exitcode, sorted(files), hidden))
             if (each / "of_threads").exists():
                 for at in map(int, (each / "of_threads").read_text().split()):
-                    if (at - part[0]) % part[1] == 0:
+                    if at >= first and (at - part[0]) % part[1] == 0:
                         for fault, name in chosen:
                             self.try_one(at, with_former, fault, name)
         print(f"{self.command.name}: {total} operations, {self.runs} runs with a fault, {self.more} states run once more, "
               f"{self.broken} broken promises, in {time.monotonic() - begin:.0f} s", flush=True)
         return self.broken
 
-    def copied_run(self, out, each, numbers, part, turn):
+    def copied_run(self, out, each, numbers, part, turn, first):
         done = run(self.program, self.command.new, out, self.fault(
             out, FAULT_EACH=str(each), FAULT_LIST=",".join(map(str, numbers)), FAULT_PART="/".join(map(str, part)),
-            **({} if turn is None else {"FAULT_TURN": str(turn)})))
+            FAULT_FROM=str(first), **({} if turn is None else {"FAULT_TURN": str(turn)})), timeout_s=None)
         (each / "asked").write_text("end\n")
         if done.returncode != 0:
             print(done.stderr.decode(errors="replace"), flush=True)
@@ -321,6 +322,7 @@ def main():
     parser.add_argument("--each", action="store_true")
     parser.add_argument("--copies", action="store_true")
     parser.add_argument("--turn", type=int)
+    parser.add_argument("--from", type=int, default=1, dest="first")
     parser.add_argument("--only", default="render,head", help="commands: render,head,batch,shapes,fit")
     parser.add_argument("--part", default="1/1", type=lambda text: [int(number) for number in text.split("/")])
     parser.add_argument("--faults", default="", help="such as ENOSPC,SIGKILL; default: all")
@@ -339,7 +341,8 @@ def main():
             if arguments.copies:
                 # Libraries may compute other last bits with one thread: all runs have one.
                 os.environ.update(ALONE, LD_PRELOAD=str(places[1]))
-                broken += Copies(*places).each(arguments.faults, arguments.part, arguments.turn)
+                broken += Copies(*places).each(arguments.faults, arguments.part, arguments.turn,
+                    arguments.first)
             else:
                 broken += Loop(*places).all(arguments.all, arguments.each, arguments.faults, arguments.part)
     sys.exit(1 if broken else 0)

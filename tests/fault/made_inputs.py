@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Gives files that are made to break readers (made_files.py) to every command that reads such files.
+"""Gives files that are made to break readers (made_files.py, made_packed.py) to every command that reads such files.
 
 Each run must end with exit code 0 or 2 within 20 s of processor time and 1.5 GB, print JSON with --json and say what is wrong in one readable line, and
 leave nothing behind when it fails. Prints each broken promise, and the number of runs. Exit code 1: a promise is broken.
@@ -23,6 +23,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import made_files  # noqa: E402
+import made_packed  # noqa: E402
 
 ROOT = made_files.ROOT
 RIG = made_files.RIG
@@ -75,7 +76,8 @@ COMMANDS = {
 AS = [name for name in COMMANDS if name.startswith("import --as")]
 ALL = [name for name in COMMANDS if name not in AS]
 USES = {
-    "no_files": ALL, "any_json": [name for name in ALL if name not in ("align", "speak", "speak --audio")],
+    "no_files": [name for name in ALL if name != "speak"],  # which says the name of a file that is not there
+    "any_json": [name for name in ALL if name not in ("align", "speak", "speak --audio")],
     "scripts": ["check", "render", "sheet", "export", "speak --script", "shapes --script", "render --against",
     "render --rig"],
     "designs": ["check", "batch --plan"], "studies": ["check", "study --plan", "figure"],
@@ -86,7 +88,9 @@ USES = {
     "sounds": ["align", "render --audio", "speak --audio", "speak"],
     "labels": ["speak --labels", "speak", "check"],
     "meshes": ["check", "fit", "fit --repair", "landmarks", "info", "render --shapes", "solve --mesh",
-    "solve --shapes", "sheet --beside", "import --as gltf"]}
+    "solve --shapes", "sheet --beside", "import --as gltf"],
+    "pictures": ["sheet --beside"], "textured": ["check"], "lights": ["check", "render"], "long_sounds": ["align", "render --audio"],
+    "packed_tets": ["figure"], "much_of_little": ["check"]}
 MAY_GO_ON = {"view"}  # a server, when the file is good
 
 
@@ -151,7 +155,7 @@ class Sweep:
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=pathlib.Path)
-    parser.add_argument("--only", default=",".join(USES), help="functions of made_files.py")
+    parser.add_argument("--only", default=",".join(USES), help="functions of made_files.py and made_packed.py")
     parser.add_argument("--part", default="1/1", type=lambda text: [int(number) for number in text.split("/")])
     arguments = parser.parse_args()
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -160,7 +164,7 @@ def main():
         for kind in arguments.only.split(","):
             folder = pathlib.Path(base) / "made" / kind
             folder.mkdir(parents=True)
-            files = getattr(made_files, kind)(folder)
+            files = getattr(made_files if hasattr(made_files, kind) else made_packed, kind)(folder)
             runs += [(name, path) for path in files.values() for name in USES[kind]]
         for name, path in runs[arguments.part[0] - 1::arguments.part[1]]:
             sweep.try_one(name, path)

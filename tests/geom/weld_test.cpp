@@ -94,6 +94,16 @@ TEST(Weld, CoordinatesMayBeOfAnySize) {
     EXPECT_EQ(weld(p, tri).welded_of_vertex, (std::vector<int>{0, 1, 2, 0, 1, 3}));
 }
 
+TEST(Weld, VerticesAtEqualDistancesTakeNoLongerThanOthers) {
+    // A prime number of cells apart: their places in a table of hashes were the same, and the work grew with the square of the number.
+    constexpr int kVertices = 600000;
+    Points p = Points::Zero(kVertices, 3);
+    for (int v = 0; v < kVertices; ++v) p(v, 0) = 712697e-9 * v;
+    Triangles tri(kVertices / 3, 3);
+    for (int t = 0; t < kVertices / 3; ++t) tri.row(t) << 3 * t, 3 * t + 1, 3 * t + 2;
+    EXPECT_EQ(weld(p, tri).positions.rows(), kVertices);
+}
+
 TEST(Weld, SpreadMovesBothSidesOfASeamTogether) {
     const auto soup = unrolled(testing::square_grid(3));
     const WeldedSurface welded = weld(soup.positions, soup.triangles);

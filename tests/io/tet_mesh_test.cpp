@@ -372,6 +372,18 @@ TEST(BrokenTetMeshes, WithAnyByteChangedDoNotCrash) {
     EXPECT_GT(meshes, 100);
 }
 
+TEST_F(TetMeshes, OfNodesWithNamesAtEqualDistancesTakeNoLongerThanOthers) {
+    // A prime number apart: their places in a table of hashes were the same, and the work grew with the square of the number.
+    constexpr long long kCount = 600000, kStep = 712697;
+    std::string nodes = std::to_string(kCount) + " 3 0 0\n";
+    for (long long i = 0; i < kCount; ++i)
+        nodes += std::to_string(i * kStep) + " " + std::to_string(i == 1) + " " +
+                 std::to_string(i == 2) + " " + std::to_string(i == 3) + "\n";
+    std::ofstream(folder_ / "far.node") << nodes;
+    std::ofstream(folder_ / "far.ele") << "1 4 0\n1 0 712697 1425394 2138091\n";
+    EXPECT_EQ(read_tet_mesh(folder_ / "far.node").positions.row(3), Eigen::RowVector3d(0, 0, 1));
+}
+
 TEST_F(TetMeshes, SayWhatIsWrongAndWhere) {
     const std::function<std::string(const std::string&)> msh = [&](const std::string& tets) {
         return complaint("a.msh", msh2_text(tets));
@@ -403,6 +415,14 @@ TEST_F(TetMeshes, SayWhatIsWrongAndWhere) {
     EXPECT_EQ(
         complaint("a.vtu", text.replace(text.find(kPackedBlocks[3]) + 30, 1, "X")),
         "a.vtu:18: expected a block of zlib with 3 bytes, found more bytes than it should hold");
+    text = vtu(Form::kPacked);
+    EXPECT_EQ(complaint("a.vtu", text.replace(text.find("NumberOfCells=\"") + 15, 1, "900000")),
+              "a.vtu:5: expected NumberOfCells, an integer in [0, 521], found \"900000\"");
+    text = vtu(Form::kAppendedRaw);
+    const std::size_t array = text.find("<DataArray");
+    EXPECT_EQ(complaint("a.vtu",
+                        text.insert(array, text.substr(array, text.find('>', array) + 1 - array))),
+              "a.vtu:7: expected one array of points, found another one");
     text = meditb(2);
     EXPECT_EQ(complaint("a.meshb", text.replace(12, 4, std::string("\2\0\0\0", 4))),
               "a.meshb: expected a next section behind the one before, found place 2");

@@ -71,6 +71,13 @@ TEST(HdrFile, PackedRowsAreTheSameAsPlainOnes) {
     EXPECT_NEAR(a.rgb[0], 40.0 / 256 * 2, 1e-6);
 }
 
+TEST(HdrFile, OneThatWouldTakeMinutesIsRefused) {
+    const fs::path large = written("large.hdr", kHead + "-Y 8192 +X 16384\n");
+    EXPECT_EQ(
+        risorius::message_of([&] { read_hdr(large); }),
+        large.string() + ": expected at most as many pixels as 8192 x 4096, found 16384 x 8192");
+}
+
 TEST(HdrFile, AFileCutShortAndAnotherKindOfFileAreRefused) {
     const fs::path cut = written("cut.hdr", kHead + "-Y 2 +X 3\n" + rgbe(1, 1, 1));
     EXPECT_EQ(risorius::message_of([&] { read_hdr(cut); }),

@@ -3,6 +3,7 @@
 #include "risorius/media/image_file.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include "media/pictures.h"
 #include "risorius/core/error.h"
@@ -82,6 +83,20 @@ TEST(PngFile, WrongFilesAreNamedForWhatTheyAre) {
     std::ofstream(file) << "GIF89a is another format";
     EXPECT_EQ(message_of_reading(file),
               file.string() + ": expected a PNG picture, found another kind of file");
+}
+
+TEST(PngFile, OneOfMorePixelsThanMemoryHoldsIsRefused) {
+    const TemporaryFolder folder;
+    write_png(noise(1, 1, 3), folder / "a.png");
+    std::string bytes = bytes_of(folder / "a.png");
+    // Of 30,000 x 30,000 pixels, as a file of 100 kB may be: width, height, three bytes of the format, and the checksum of them
+    bytes.replace(16, 8, std::string("\0\0\x75\x30\0\0\x75\x30", 8));
+    const uLong sum = crc32(0, reinterpret_cast<const Bytef*>(bytes.data()) + 12, 17);
+    for (std::size_t i = 0; i < 4; ++i) bytes[29 + i] = static_cast<char>(sum >> (24 - 8 * i));
+    std::ofstream(folder / "a.png", std::ios::binary) << bytes;
+    EXPECT_EQ(
+        message_of_reading(folder / "a.png"),
+        (folder / "a.png").string() + ": expected at most 100 million pixels, found 30000 x 30000");
 }
 
 TEST(PngFile, PictureCutShortAnywhereIsRefused) {

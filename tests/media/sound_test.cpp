@@ -329,6 +329,17 @@ TEST(Sound, OfAnHourCostsNoMemory) {
     EXPECT_LT(peak_memory_kB() - before_kB, kMost_kB) << "it was 700 MB and more";
 }
 
+TEST(Sound, OfDaysIsRefusedBeforeItIsDecoded) {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "days.wav";
+    constexpr std::uint32_t kBytes = 4'000'000'400u;
+    write_bytes(file, wav_of(1, 16, "", kBytes));
+    fs::resize_file(file, fs::file_size(file) + kBytes);  // zeros that take no disk
+    EXPECT_EQ(
+        without_folder(message_of([&] { open_recording(file); }), folder),
+        "days.wav: expected at most 2e9 samples in all channels, six hours in stereo, found more");
+}
+
 TEST(Sound, NamesWhatIsWrongWithAFile) {
     const TemporaryFolder folder;
     const auto message = [&](const std::string& name) {
@@ -339,6 +350,10 @@ TEST(Sound, NamesWhatIsWrongWithAFile) {
     EXPECT_EQ(message("text.wav"),
               "text.wav: expected a sound file, found another kind of file, or one cut short");
     const std::string whole = wav_bytes(click(4800, 2400, 48000), 48000);
+    write_bytes(folder / "whole.wav", whole);
+    write_bytes(folder / "list.wav", "ffconcat version 1.0\nfile whole.wav\n");
+    EXPECT_EQ(message("list.wav"),
+              "list.wav: expected a sound file, found another kind of file, or one cut short");
     write_bytes(folder / "cut.wav", whole.substr(0, whole.size() / 2));
     EXPECT_EQ(message("cut.wav"),
               "cut.wav: expected as much sound as its header says, found 4822 bytes less");

@@ -333,6 +333,10 @@ TEST_F(RigFile, ARegionOfFibresNeedsLandmarksADirectionAndAStiffness) {
         complaint_of("layer", "skin"),
         "rig.json:/tissue/collagen/0/layer: expected one of \"deep\" \"superficial\" \"both\", "
         "found \"skin\"");
+    Json json = adult_json();
+    json["tissue"]["collagen"] = std::vector<int>(101);
+    EXPECT_EQ(complaint(json),
+              "rig.json:/tissue/collagen: expected at most 100 regions, found 101");
 }
 
 TEST_F(RigFile, AStrengthForNoMuscleIsFound) {

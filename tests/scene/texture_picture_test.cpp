@@ -83,6 +83,18 @@ TEST(Textures, APictureOfAnotherComputerIsFoundBesideItsLibrary) {
             << name;
 }
 
+TEST(Textures, WhatAPngHoldsBesidePixelsIsNotUnpacked) {
+    // A profile of a kilobyte could stand for a megabyte. This one cannot be unpacked at all.
+    Image picture(3, 2);
+    for (std::size_t i = 0; i < picture.rgba.size(); ++i)
+        picture.rgba[i] = static_cast<std::uint8_t>(37 * i);
+    media::write_png(picture, folder() / "plain.png");
+    std::string bytes = bytes_of(folder() / "plain.png");
+    bytes.insert(33, std::string("\0\0\0\5iCCPa\0\0zz????", 17));  // behind the header
+    std::ofstream(folder() / "profile.png", std::ios::binary) << bytes;
+    EXPECT_EQ(read_texture({folder() / "profile.png", "here", {}}).rgba, picture.rgba);
+}
+
 TEST(Textures, ATgaIsRead) {
     std::string bytes(18, '\0');
     bytes[2] = 2;
@@ -115,8 +127,16 @@ TEST(Textures, AFileThatIsNoPictureIsRefused) {
         EXPECT_EQ(message_of([&] { read_texture(texture); }),
                   (folder() / "words.png").string() +
                       ": expected a picture (PNG, JPEG, TGA, BMP, TIFF, WebP), found another kind "
-                      "of file, or one cut short");
+                      "of file, one cut short, or more than 100 million pixels");
     }
+    std::string scans = "\xff\xd8";
+    for (int i = 0; i < 201; ++i) scans += "\xff\xda";
+    std::ofstream(folder() / "scans.jpg", std::ios::binary) << scans;
+    EXPECT_EQ(
+        message_of([&] {
+            read_texture({folder() / "scans.jpg", "here", {}});
+        }),
+        (folder() / "scans.jpg").string() + ": expected a JPEG of at most 200 scans, found 201");
 }
 
 std::string base64(const std::string& bytes) {

@@ -52,6 +52,10 @@ TEST_F(RecordingFile, TablesThatAreNoneAreRefused) {
               "recording_test.csv:2: expected 2 cells, found 1");
     EXPECT_EQ(message_of([] { recorded("a,b,a\n"); }),
               "recording_test.csv:1: expected every column once, found \"a\" again");
+    std::string many = "a";
+    for (int i = 0; i < 5000; ++i) many += ",b" + std::to_string(i);
+    EXPECT_EQ(message_of([&] { recorded(many + "\n"); }),
+              "recording_test.csv:1: expected at most 5000 columns, found more");
     EXPECT_EQ(message_of([] { recorded("a,,b\n"); }),
               "recording_test.csv:1: expected a name for every column, found an empty one");
     EXPECT_EQ(message_of([] { recorded("\n# nothing\n"); }),

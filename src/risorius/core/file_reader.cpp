@@ -2,6 +2,7 @@
 #include "risorius/core/file_reader.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -30,7 +31,8 @@ FileReader::FileReader(const std::filesystem::path& file, const FileKind& kind)
     struct ::stat status {};
     if (::stat(place.c_str(), &status) != 0) fail(reason());
     check_type(status.st_mode);
-    do descriptor_ = ::open(place.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
+    // Opening a pipe would wait for its writer, who may never come.
+    do descriptor_ = ::open(place.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
     while (descriptor_ < 0 && errno == EINTR);
     if (descriptor_ < 0) fail(reason());
     try {
@@ -40,16 +42,37 @@ FileReader::FileReader(const std::filesystem::path& file, const FileKind& kind)
         size_ = regular_ ? static_cast<std::uint64_t>(status.st_size) : 0;
         if (size_ > kind_.max_bytes) fail_as_too_large(std::to_string(size_) + " bytes");
         note_input(status.st_dev, status.st_ino);
+        if (!regular_) wait_for_writer();
+        if (::fcntl(descriptor_, F_SETFL, 0) != 0) fail(reason());
     } catch (...) {
         ::close(descriptor_);
         throw;
     }
 }
 
+void FileReader::wait_for_writer() {
+    constexpr int kPatience_s = 10, kPerSecond = 100;
+    for (int i = 0; i < kPatience_s * kPerSecond; ++i) {
+        ::pollfd ready{descriptor_, POLLIN, 0};
+        ::poll(&ready, 1, 1000 / kPerSecond);
+        char byte = 0;
+        const ssize_t got = ::read(descriptor_, &byte, 1);
+        if (got == 1) first_ = byte;
+        const bool is_there = got < 0 && errno == EAGAIN,
+                   has_ended = (ready.revents & POLLHUP) != 0;
+        if (got == 1 || is_there || has_ended) return;
+    }
+    fail("a pipe into which nobody has written for " + std::to_string(kPatience_s) + " s");
+}
+
 FileReader::~FileReader() { ::close(descriptor_); }
 
 std::size_t FileReader::read(void* to, std::size_t count) {
     std::size_t used = 0;
+    if (first_ && count > 0) {
+        static_cast<char*>(to)[used++] = *first_;
+        first_.reset();
+    }
     while (used < count) {
         const ssize_t got = ::read(descriptor_, static_cast<char*>(to) + used, count - used);
         if (got < 0 && errno == EINTR) continue;

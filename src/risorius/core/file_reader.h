@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "risorius/core/read_file.h"
@@ -15,7 +16,7 @@ namespace risorius {
 
 class FileReader {
   public:
-    /// Throws Error with the path as its place.
+    /// Throws Error with the path as its place. Of a pipe that nobody has opened to write, it waits 10 s for a writer.
     FileReader(const std::filesystem::path& file, const FileKind& kind);
     ~FileReader();
     FileReader(const FileReader&) = delete;
@@ -34,6 +35,7 @@ class FileReader {
 
   private:
     void check_type(unsigned mode) const;
+    void wait_for_writer();
     [[noreturn]] void fail(const std::string& found) const;
 
     std::filesystem::path file_;
@@ -41,6 +43,8 @@ class FileReader {
     int descriptor_ = -1;
     bool regular_ = false;
     std::uint64_t size_ = 0;
+    std::optional<char>
+        first_;  ///< byte of a pipe that has been read to see whether it has a writer
 };
 
 }  // namespace risorius

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "risorius/core/counter_rng.h"
 #include "risorius/geom/surface_topology.h"
 
 namespace risorius::geom {
@@ -17,9 +18,10 @@ using Cell = std::array<std::int64_t, 3>;
 
 struct CellHash {
     std::size_t operator()(const Cell& cell) const {
-        // Three large primes: Teschner et al. 2003, "Optimized spatial hashing for collision detection".
-        const auto of = [&](std::size_t k) { return static_cast<std::uint64_t>(cell[k]); };
-        return static_cast<std::size_t>(of(0) * 73856093U ^ of(1) * 19349663U ^ of(2) * 83492791U);
+        // Its bits are mixed: with sums or products, cells at equal distances on a line could all share a bucket.
+        CounterRng mixed;
+        for (const std::int64_t part : cell) mixed.at(static_cast<std::uint64_t>(part));
+        return static_cast<std::size_t>(mixed.bits());
     }
 };
 

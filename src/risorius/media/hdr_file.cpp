@@ -16,6 +16,8 @@ namespace risorius::media {
 namespace {
 
 constexpr int kMaxSide = 16384;
+// A light of that size takes 1.4 GB and 15 s until it is drawn.
+constexpr std::int64_t kMaxPixels = std::int64_t{8192} * 4096;
 constexpr FileKind kHdrPicture{"a Radiance .hdr file", 1000 * kMegabyte};
 
 class RowReader {
@@ -82,6 +84,9 @@ HdrPicture read_hdr(const std::filesystem::path& file) {
         picture.width > kMaxSide)
         throw Error(file.string(), "a size like \"-Y 512 +X 1024\"", "\"" + line + "\"");
 
+    if (std::int64_t{picture.height} * picture.width > kMaxPixels)
+        throw Error(file.string(), "at most as many pixels as 8192 x 4096",
+                    std::to_string(picture.width) + " x " + std::to_string(picture.height));
     std::vector<std::array<std::uint8_t, 4>> row(static_cast<std::size_t>(picture.width));
     // Of the shortest encoding, one byte stands for at most 127 pixels of one channel. A size that the bytes cannot fill takes
     // no memory.

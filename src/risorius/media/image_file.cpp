@@ -130,6 +130,11 @@ Image read_png(const std::filesystem::path& file) {
         png_image_free(&png);
         throw Error(file.string(), "a PNG picture of 8 bits per channel", "16 bits per channel");
     }
+    if (std::int64_t{png.width} * png.height > kMostPixels) {
+        const std::string size = std::to_string(png.width) + " x " + std::to_string(png.height);
+        png_image_free(&png);
+        throw Error(file.string(), kFewerPixels, size);
+    }
     png.format = PNG_FORMAT_RGBA;
     Image image(static_cast<int>(png.width), static_cast<int>(png.height));
     if (!png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr))

@@ -12,6 +12,10 @@
 
 namespace risorius::media {
 
+/// Of a picture that is read: 400 MB, and up to three times as much while some formats are decoded.
+inline constexpr std::int64_t kMostPixels = 100'000'000;
+inline constexpr const char* kFewerPixels = "at most 100 million pixels";
+
 /// How hard the pixels are compressed: quickly, or to about four fifths of that size in three times the time.
 enum class PngSize { kFast, kSmall };
 /// Returns the bytes of a PNG file. Alpha is kept when any pixel is not opaque. `name`: of the picture, for messages.
@@ -26,7 +30,8 @@ void write_grey_png(int width_px, int height_px, int bits,
                     const std::vector<std::uint16_t>& samples, const std::filesystem::path& file);
 /// Returns whether any pixel is not opaque.
 bool has_transparency(const Image& image);
-/// Reads a picture. Throws Error when the file is missing, incomplete, or not a PNG file with 8 bits per channel.
+/// Reads a picture. Throws Error when the file is missing, incomplete, too large, or not a PNG file with 8 bits per
+/// channel.
 Image read_png(const std::filesystem::path& file);
 
 /// Writes ASCII text for captions. Its baseline begins at x, y, and capitals are `height_px` high.

@@ -2,6 +2,7 @@
 #include "risorius/media/picture_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <new>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "risorius/core/error.h"
 #include "risorius/core/read_file.h"
 #include "risorius/media/detail/ffmpeg.h"
+#include "risorius/media/image_file.h"
 
 namespace risorius::media {
 
@@ -88,8 +90,6 @@ Image rgba_of(const AVFrame& picture, const std::string& name) {
 
 /// `bytes`: of the file. A large picture needs a large file, unless it is a damaged one that states any size.
 CodecPtr codec_for(const AVCodec* decoder, std::size_t bytes) {
-    constexpr std::int64_t kMostPixels =
-        300'000'000;  // 16,384 squared, the largest that graphics cards take
     constexpr std::int64_t kOfSmallFile = 20'000'000;  // 4096 squared, of one colour
     constexpr std::int64_t kOfEachByte = 10'000;       // what compression by zlib can reach
     CodecPtr codec(avcodec_alloc_context3(decoder));
@@ -136,11 +136,48 @@ std::optional<Image> read_tga(const std::vector<std::uint8_t>& bytes, const std:
     return rgba_of(*picture, name);
 }
 
+/// A PNG without what does not change its pixels: FFmpeg unpacks texts and profiles, of which a kilobyte can stand for a megabyte.
+/// Null for other files.
+std::optional<std::vector<std::uint8_t>> pixels_only(const std::vector<std::uint8_t>& bytes) {
+    constexpr std::array<std::uint8_t, 8> kSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    constexpr std::size_t kAround = 12;  // length, type and checksum of a chunk
+    if (bytes.size() < kSignature.size() ||
+        !std::equal(kSignature.begin(), kSignature.end(), bytes.begin()))
+        return std::nullopt;
+    std::vector<std::uint8_t> out(kSignature.begin(), kSignature.end());
+    for (std::size_t at = kSignature.size(), length = 0; at + kAround <= bytes.size();
+         at += length) {
+        length = kAround;
+        for (std::size_t i = 0; i < 4; ++i) length += std::size_t{bytes[at + i]} << (24 - 8 * i);
+        length = std::min(length, bytes.size() - at);
+        const auto chunk = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+        const std::string type(chunk + 4, chunk + 8);
+        const bool is_critical = (type[0] & 0x20) == 0;
+        if (is_critical || type == "tRNS")
+            out.insert(out.end(), chunk, chunk + static_cast<std::ptrdiff_t>(length));
+    }
+    return out;
+}
+
+/// Throws Error for a JPEG of very many scans: each goes through all pixels, and takes some bytes.
+void check_scans(const std::vector<std::uint8_t>& bytes, const std::string& name) {
+    constexpr std::size_t kMostScans = 200;  // programs write some ten
+    if (bytes.size() < 2 || bytes[0] != 0xff || bytes[1] != 0xd8) return;
+    std::size_t scans = 0;
+    for (std::size_t i = 3; i < bytes.size(); ++i)
+        scans += bytes[i - 1] == 0xff && bytes[i] == 0xda;
+    if (scans > kMostScans) throw Error(name, "a JPEG of at most 200 scans", std::to_string(scans));
+}
+
 }  // namespace
 
-Image read_picture(const std::vector<std::uint8_t>& bytes, const std::string& name) {
+Image read_picture(const std::vector<std::uint8_t>& whole, const std::string& name) {
     silence_ffmpeg();
-    const Error no_picture(name, kPicture, "another kind of file, or one cut short");
+    check_scans(whole, name);
+    const auto pixels = pixels_only(whole);
+    const std::vector<std::uint8_t>& bytes = pixels ? *pixels : whole;
+    const Error no_picture(name, kPicture,
+                           "another kind of file, one cut short, or more than 100 million pixels");
     // FFmpeg does not know a TGA by its first bytes.
     if (may_be_tga(bytes, name))
         if (const auto tga = read_tga(bytes, name)) return *tga;

@@ -16,6 +16,7 @@ namespace risorius::signal {
 namespace {
 
 constexpr FileKind kRecording{"a recording", 2000 * kMegabyte};
+constexpr std::size_t kMostColumns = 5000;  // each is compared with all others
 
 std::string_view trimmed(std::string_view text) {
     const auto is_filler = [](char c) { return c == ' ' || c == '\t'; };
@@ -85,6 +86,7 @@ void Recording::read_header(std::string_view line, const std::string& place) {
     for (bool more = true; more;) {
         more = take_cell(line, separator_, name, place);
         if (name.empty()) throw Error(place, "a name for every column", "an empty one");
+        if (columns_.size() == kMostColumns) throw Error(place, "at most 5000 columns", "more");
         if (find(name) >= 0) throw Error(place, "every column once", "\"" + name + "\" again");
         columns_.push_back(name);
     }

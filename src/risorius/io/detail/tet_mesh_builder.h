@@ -9,12 +9,20 @@
 #include <unordered_map>
 #include <vector>
 
+#include "risorius/core/counter_rng.h"
 #include "risorius/io/tet_mesh.h"
 
 namespace risorius::io::detail {
 
 inline constexpr std::size_t kMostTets = 15'000'000;
 inline constexpr long long kLargestId = 1'000'000'000'000;
+
+/// Of the name of a node. Its bits are mixed: names at equal distances could all share a bucket otherwise.
+struct NodeHash {
+    std::size_t operator()(long long id) const {
+        return static_cast<std::size_t>(CounterRng().at(static_cast<std::uint64_t>(id)).bits());
+    }
+};
 
 class TetMeshBuilder {
   public:
@@ -37,7 +45,7 @@ class TetMeshBuilder {
 
     std::string name_;
     std::vector<Vec3> positions_;
-    std::unordered_map<long long, int> index_;
+    std::unordered_map<long long, int, NodeHash> index_;
     std::vector<std::array<long long, 4>> tets_;
     std::vector<int> tags_;
     std::map<std::string, int> names_;

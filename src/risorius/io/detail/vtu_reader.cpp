@@ -2,8 +2,10 @@
 // Unstructured grids of VTK in XML: text, base64 and raw blocks, also packed by zlib. Source: VTK File Formats, in The VTK User's Guide, Kitware, 11th edition, 2010.
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "risorius/core/error.h"
 #include "risorius/io/detail/base64_digit.h"
@@ -135,8 +137,10 @@ class VtuReader {
             long_header_ = attribute("header_type") == "UInt64";
         } else if (tag_ == "Piece") {
             ++pieces_;
-            point_count_ = count("NumberOfPoints", kMostVertices);
-            cell_count_ = count("NumberOfCells", 4 * kMostTets);
+            // Packed, what is said of each takes some bytes at least.
+            const std::size_t most = text_.size() / 2;
+            point_count_ = count("NumberOfPoints", std::min(kMostVertices, most));
+            cell_count_ = count("NumberOfCells", std::min(4 * kMostTets, most));
         } else if (tag_ == "Points" || tag_ == "Cells" || tag_ == "CellData" ||
                    tag_ == "PointData") {
             section_ = tag_;
@@ -145,30 +149,42 @@ class VtuReader {
         }
     }
 
-    std::size_t count(std::string_view key, std::size_t most) {
+    /// An attribute that is a number.
+    std::size_t count(std::string_view key, std::size_t most) const {
         const std::string text = attribute(key);
-        MeshScanner in(text, name_);
-        return static_cast<std::size_t>(
-            in.integer(std::string(key), 0, static_cast<long long>(most)));
+        std::size_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc() || end != text.data() + text.size() || value > most)
+            fail(std::string(key) + ", an integer in [0, " + std::to_string(most) + "]",
+                 "\"" + text.substr(0, 24) + "\"");
+        return value;
     }
 
     void read_array() {
         const std::string name = attribute("Name");
+        const bool fibres = attribute("NumberOfComponents") == "3" && is_fibre_name(name);
         if (section_ == "Points") {
-            cells_.points = values(3 * point_count_);
+            cells_.points = values_once("points", 3 * point_count_);
         } else if (section_ == "Cells" && name == "connectivity") {
-            cells_.connectivity = values({});
+            cells_.connectivity = values_once(name, {});
         } else if (section_ == "Cells" && name == "offsets") {
-            cells_.offsets = values(cell_count_);
+            cells_.offsets = values_once(name, cell_count_);
             cells_.offsets.insert(cells_.offsets.begin(), 0);
         } else if (section_ == "Cells" && name == "types") {
-            cells_.types = values(cell_count_);
+            cells_.types = values_once(name, cell_count_);
         } else if (section_ == "CellData" && is_tag_name(name)) {
-            cells_.tags = values(cell_count_);
-        } else if (attribute("NumberOfComponents") == "3" && is_fibre_name(name)) {
-            if (section_ == "CellData") cells_.cell_fibres = values(3 * cell_count_);
-            if (section_ == "PointData") cells_.point_fibres = values(3 * point_count_);
+            cells_.tags = values_once(name, cell_count_);
+        } else if (section_ == "CellData" && fibres) {
+            cells_.cell_fibres = values_once("fibres of cells", 3 * cell_count_);
+        } else if (section_ == "PointData" && fibres) {
+            cells_.point_fibres = values_once("fibres of points", 3 * point_count_);
         }
+    }
+
+    /// Many arrays could name the same appended data otherwise.
+    std::vector<double> values_once(const std::string& what, std::optional<std::size_t> expected) {
+        if (!read_.insert(what).second) fail("one array of " + what, "another one");
+        return values(expected);
     }
 
     Scalar type() const {
@@ -197,10 +213,7 @@ class VtuReader {
             out = of_block(decoded_base64(text_.substr(at_, end - at_), std::string::npos), of,
                            expected);
         } else if (form == "appended") {
-            const std::string offset_text = attribute("offset");
-            MeshScanner in(offset_text, name_);
-            const auto offset = static_cast<std::size_t>(
-                in.integer("the offset", 0, static_cast<long long>(text_.size())));
+            const std::size_t offset = count("offset", text_.size());
             if (appended_ == 0 || appended_ + offset > text_.size())
                 fail("an offset within the appended data", std::to_string(offset));
             const std::string_view from = text_.substr(appended_ + offset);
@@ -260,7 +273,8 @@ class VtuReader {
                  std::to_string(block.size()));
         if (!compressed_) return numbers_of(block.substr(head, length), of, swapped_);
         // A file packs a thousandth of what it can unpack to: no more than there is room for in the mesh
-        const std::size_t most = bytes_of(of) * expected.value_or(kMostNodesOfACell * cell_count_);
+        const std::size_t most = bytes_of(of) * expected.value_or(std::min(
+                                                    kMostNodesOfACell * cell_count_, kMostCorners));
         std::string unpacked;
         const std::size_t parts = header_number(block, 0), last = header_number(block, 2);
         std::size_t at = head;
@@ -269,6 +283,7 @@ class VtuReader {
             const std::size_t bytes =
                 part + 1 == parts && last > 0 ? last : header_number(block, 1);
             const std::size_t before = unpacked.size();
+            if (bytes == 0) fail("parts of a block with bytes", "an empty one");
             if (bytes > most - before)
                 fail("at most " + std::to_string(most) + " bytes in a block",
                      std::to_string(before + bytes));
@@ -287,6 +302,7 @@ class VtuReader {
     std::size_t at_ = 0, xml_end_ = std::string_view::npos, appended_ = 0;
     bool raw_ = false, swapped_ = false, long_header_ = false, compressed_ = false;
     std::string tag_, section_;
+    std::set<std::string> read_;  ///< arrays
     Attributes attributes_;
     int pieces_ = 0;
     std::size_t point_count_ = 0, cell_count_ = 0;

@@ -13,6 +13,9 @@ using namespace detail;
 
 namespace {
 
+/// Of all channels: six hours in stereo. Some bytes of FLAC can stand for half a million samples.
+constexpr std::int64_t kMostSamples = 2'000'000'000;
+
 float amplified(double factor, float sample) { return static_cast<float>(factor * sample); }
 
 [[noreturn]] void fail_as_changed(const Recording& recording) {
@@ -73,9 +76,17 @@ Recording open_recording(const std::filesystem::path& file) {
     if (recording.container != "wav" && recording.container != "flac")
         throw Error(file.string(), "a WAV or FLAC file",
                     "one of " + risorius::in_quotes(recording.container));
-    for (std::vector<float> piece; stream.next(piece);)
+    const auto check_length = [&](std::int64_t of_channel) {
+        if (of_channel > kMostSamples / recording.channels)
+            throw Error(file.string(), "at most 2e9 samples in all channels, six hours in stereo",
+                        "more");
+    };
+    check_length(stream.promised());
+    for (std::vector<float> piece; stream.next(piece);) {
         recording.samples_of_channel +=
             static_cast<std::int64_t>(piece.size()) / recording.channels;
+        check_length(recording.samples_of_channel);
+    }
     if (recording.length() == 0)
         throw Error(file.string(), "a file with sound", "no samples in it");
     stream.check_whole(recording.length());

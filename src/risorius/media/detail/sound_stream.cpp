@@ -15,6 +15,9 @@ namespace risorius::media::detail {
 
 namespace {
 
+// Of FFmpeg's 300 formats those that hold sound themselves. Lists name other files, and those may name them again.
+constexpr const char* kFormats = "wav,w64,flac,aiff,caf,au,mp3,aac,ogg,mov,matroska";
+
 constexpr FileKind kSoundFile{"a sound file", std::numeric_limits<std::uint64_t>::max()};
 // Floating point may exceed full scale. 24 dB above it is no sound any more, but a file that is read wrongly.
 constexpr double kGreatest = 16;
@@ -71,6 +74,13 @@ SoundStream::SoundStream(const std::filesystem::path& file) : name_(file.string(
     check_file(file, kSoundFile);
     wav_ = read_wav_header(file);
     const std::string url = ffmpeg_url(file_to_read(file).string());
+    format_ = avformat_alloc_context();
+    if (format_) format_->format_whitelist = av_strdup(kFormats);
+    if (!format_ || !format_->format_whitelist) {
+        avformat_free_context(format_);
+        throw std::bad_alloc();
+    }
+    // On failure FFmpeg frees the context.
     if (avformat_open_input(&format_, url.c_str(), nullptr, nullptr) < 0)
         throw Error(name_, "a sound file", "another kind of file, or one cut short");
     try {

@@ -30,6 +30,8 @@ class SoundStream {
     /// sample that is not finite or far beyond full scale.
     bool next(std::vector<float>& piece);
 
+    /// Samples of each channel by the header, which may lie; 0: unknown
+    std::int64_t promised() const { return promised_; }
     /// Throws Error when `length`, the samples of each channel that were read to the end, is less than the header promises.
     void check_whole(std::int64_t length) const;
 
@@ -41,7 +43,7 @@ class SoundStream {
 
     std::string name_;
     std::optional<WavHeader> wav_;
-    std::int64_t promised_ = 0;  ///< samples by the header of a file other than WAV; 0: unknown
+    std::int64_t promised_ = 0;  ///< samples of each channel by the header; 0: unknown
     SoundForm form_;
     double start_s_ = 0;
     std::int64_t taken_ = 0;  ///< samples of each channel

@@ -18,8 +18,12 @@ std::vector<CollagenRegion> read_collagen_regions(const JsonCursor& json,
                                     : "a landmark of the atlas (did you mean \"" + near + "\"?)");
         return id;
     };
+    // Each looks at all of the tissue.
+    constexpr std::size_t kMostRegions = 100;
+    const std::vector<JsonCursor> items = json.items();
+    if (items.size() > kMostRegions) json.fail("at most 100 regions", std::to_string(items.size()));
     std::vector<CollagenRegion> out;
-    for (const JsonCursor& item : json.items()) {
+    for (const JsonCursor& item : items) {
         item.allow_keys({"at", "radius_mm", "layer", "from", "to", "k1_pa", "k2"});
         CollagenRegion region;
         region.at = landmark(item.at("at"));

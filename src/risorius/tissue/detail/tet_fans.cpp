@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <unordered_map>
 
+#include "risorius/core/counter_rng.h"
+
 namespace risorius::tissue {
 
 namespace {
@@ -17,9 +19,9 @@ struct Face {
 };
 struct FaceHash {
     std::size_t operator()(const Face& face) const {
-        std::size_t hash = 0;
-        for (int node : face.nodes) hash = hash * 1000003u + static_cast<std::size_t>(node);
-        return hash;
+        CounterRng mixed;
+        for (int node : face.nodes) mixed.at(static_cast<std::uint64_t>(node));
+        return static_cast<std::size_t>(mixed.bits());
     }
 };
 
