@@ -125,7 +125,8 @@ void add_head(CLI::App& app) {
     command->add_option("-o,--out", arguments->options.out, "The folder to write")->required();
     command->add_option("--identity", choice.identity,
                         "The head: a name in models/identities, or a .json file like those");
-    command->add_option("--seed", choice.seed, "Draw a person from the population of adults with this seed");
+    command->add_option("--seed", choice.seed,
+                        "Draw a person from the population of adults with this seed");
     command->add_option("--sex", choice.sex,
                         "-1: female, 1: male. Default: that of the identity, or else 0");
     command->add_option("--age", choice.age, "Age, 20 to 80 years");

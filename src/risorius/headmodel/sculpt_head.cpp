@@ -145,8 +145,8 @@ headmodel::Identity begun_identity(const IdentityChoice& choice,
     if (sources > 1)
         throw Error(option_name(choice.morph.empty() ? "average" : "morph"),
                     "no other source of the identity", "one");
-    const bool person = choice.model ? *choice.model == 2
-                                     : choice.ancestry.has_value() || choice.seed.has_value();
+    const bool person =
+        choice.model ? *choice.model == 2 : choice.ancestry.has_value() || choice.seed.has_value();
     if (!choice.identity.empty()) return identity_called(choice.identity, "identity", tables);
     if (!choice.morph.empty()) return morph_of(choice.morph, tables);
     if (!choice.average.empty()) {
