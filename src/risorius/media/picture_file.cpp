@@ -139,13 +139,13 @@ std::optional<Image> read_tga(const std::vector<std::uint8_t>& bytes, const std:
 /// A PNG without what does not change its pixels: FFmpeg unpacks texts and profiles, of which a kilobyte can stand for a megabyte.
 /// Null for other files.
 std::optional<std::vector<std::uint8_t>> pixels_only(const std::vector<std::uint8_t>& bytes) {
-    constexpr std::array<std::uint8_t, 8> kSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    constexpr std::array<std::uint8_t, 8> kPngBegin{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
     constexpr std::size_t kAround = 12;  // length, type and checksum of a chunk
-    if (bytes.size() < kSignature.size() ||
-        !std::equal(kSignature.begin(), kSignature.end(), bytes.begin()))
+    if (bytes.size() < kPngBegin.size() ||
+        !std::equal(kPngBegin.begin(), kPngBegin.end(), bytes.begin()))
         return std::nullopt;
-    std::vector<std::uint8_t> out(kSignature.begin(), kSignature.end());
-    for (std::size_t at = kSignature.size(), length = 0; at + kAround <= bytes.size();
+    std::vector<std::uint8_t> out(kPngBegin.begin(), kPngBegin.end());
+    for (std::size_t at = kPngBegin.size(), length = 0; at + kAround <= bytes.size();
          at += length) {
         length = kAround;
         for (std::size_t i = 0; i < 4; ++i) length += std::size_t{bytes[at + i]} << (24 - 8 * i);

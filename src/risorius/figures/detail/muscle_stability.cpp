@@ -100,7 +100,7 @@ Plan read_plan(const JsonCursor& experiment) {
 
 /// Mean pull over F0 in the second half, NaN when the motion diverges.
 double mean_tension(const Plan& plan, double step_s, const RunOptions& options) {
-    constexpr int kSamples = 1000;
+    constexpr int kTensionSamples = 1000;
     const softbody::MuscleBody muscle = plan.build(*plan.tension_edge);
     const auto steps = solve::make_integrator({.method = plan.tension_method,
                                                .step_s = step_s,
@@ -108,14 +108,15 @@ double mean_tension(const Plan& plan, double step_s, const RunOptions& options) 
                                                .diverged_at = plan.search.diverged_at});
     solve::MotionState state = muscle.body.start();
     double sum = 0;
-    for (int i = 0; i < kSamples; ++i) {
+    for (int i = 0; i < kTensionSamples; ++i) {
         options.monitor.throw_if_stopped();
-        const double until_s = plan.tension_duration_s * (kSamples + i) / (2.0 * kSamples);
+        const double until_s =
+            plan.tension_duration_s * (kTensionSamples + i) / (2.0 * kTensionSamples);
         if (steps->advance(muscle.body.system, state, until_s).diverged)
             return std::numeric_limits<double>::quiet_NaN();
         sum += muscle.tension(state.t_s, state.x);
     }
-    return sum / kSamples;
+    return sum / kTensionSamples;
 }
 
 /// Searches down the table and beyond its end, because linear theory is cheap.

@@ -236,10 +236,10 @@ void add_crown(Builder& builder, const Crown& crown, double scale, Arch arch, co
         }
     }
     // From the rounded edge to its middle it is a quarter as far as from the neck to the edge.
-    constexpr double kTop = 0.2;
+    constexpr double kRim = 0.2;
     builder.tube(rings, {0, [&disc](int ring, double around) {
                              const double fraction =
-                                 ring > kRings ? 0 : 1 - (1 - kTop) * crown_height(ring);
+                                 ring > kRings ? 0 : 1 - (1 - kRim) * crown_height(ring);
                              return disc.at(fraction, 2 * M_PI * around);
                          }});
     Vec3 apex = Vec3::Zero();

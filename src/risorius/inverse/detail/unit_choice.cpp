@@ -59,8 +59,8 @@ class Choice {
     }
 
     void improve() {
-        constexpr int kRounds = 60;
-        for (int round = 0; round < kRounds; ++round)
+        constexpr int kMostRounds = 60;
+        for (int round = 0; round < kMostRounds; ++round)
             if (!add_one() && !exchange_one() && !leave_one_out()) break;
     }
     std::vector<std::size_t> sources() const { return sources_of(chosen_); }
