@@ -49,6 +49,14 @@ Eigen::VectorXd von_mises_of(const face::Tensors& stress_pa) {
     return out;
 }
 
+void add_body(const auto& body, py::dict& out) {
+    out["rest"] = body.rest;
+    out["nodes"] = body.nodes;
+    out["J"] = body.volume_ratio;
+    out["stress_pa"] = body.stress_pa;
+    out["von_mises_pa"] = von_mises_of(body.stress_pa);
+}
+
 /// Whether the numbers of a path leave the nodes of tissue and muscles where they are.
 bool keeps_nodes(const std::string& path) {
     const bool of_solids = path.starts_with("anatomy/solids/") &&
@@ -73,25 +81,17 @@ rig::RigDescription scaled(const Json& rig, const std::vector<std::string>& numb
 py::dict fields_dict(face::Face& face) {
     const face::FaceFields fields = face.fields().now();
     py::dict tissue, fibres, solids, out;
-    tissue["rest"] = fields.tissue.rest;
-    tissue["nodes"] = fields.tissue.nodes;
+    add_body(fields.tissue, tissue);
     tissue["cells"] = fields.tissue.tets;
     tissue["contact_pa"] = fields.tissue.contact_pa;
-    tissue["J"] = fields.tissue.volume_ratio;
-    tissue["stress_pa"] = fields.tissue.stress_pa;
-    tissue["von_mises_pa"] = von_mises_of(fields.tissue.stress_pa);
     fibres["rest"] = fields.fibres.rest;
     fibres["nodes"] = fields.fibres.nodes;
     fibres["cells"] = py::array_t<int>(
         {fields.fibres.segments.size(), std::size_t{2}},
         fields.fibres.segments.empty() ? nullptr : fields.fibres.segments.front().data());
     add_states(fields.fibres.state, fibres);
-    solids["rest"] = fields.solids.rest;
-    solids["nodes"] = fields.solids.nodes;
+    add_body(fields.solids, solids);
     solids["cells"] = fields.solids.cells;
-    solids["J"] = fields.solids.volume_ratio;
-    solids["stress_pa"] = fields.solids.stress_pa;
-    solids["von_mises_pa"] = von_mises_of(fields.solids.stress_pa);
     add_states(fields.solids.state, solids);
     out["tissue"] = tissue;
     out["fibres"] = fibres;

@@ -130,7 +130,7 @@ TEST_F(Talking, RoundedVowelsAreSmallAndOpenAndLipsCloseBesideThem) {
         EXPECT_NEAR(middle(&Mouth::gap), target(speech::Parameter::kGap), 2.5) << phone.symbol;
         EXPECT_NEAR(middle(&Mouth::width), target(speech::Parameter::kWidth), 1.5) << phone.symbol;
         EXPECT_NEAR(protrusion, target(speech::Parameter::kProtrusion), 1.5) << phone.symbol;
-        // Round enough to be seen: a tenth of the width of a mouth at rest is 5 mm.
+        // Apart from a closed mouth and from one at rest
         EXPECT_LT(middle(&Mouth::width), -8.5) << phone.symbol;
         EXPECT_GT(middle(&Mouth::gap), 3.5) << phone.symbol;
     }

@@ -5,9 +5,6 @@
 
 #include <png.h>
 
-#include <algorithm>
-#include <array>
-#include <cstring>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -15,6 +12,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/output_set.h"
+#include "risorius/media/detail/png_chunks.h"
 #include "risorius/media/detail/png_samples.h"
 #include "risorius/media/detail/temporary_file.h"
 
@@ -22,21 +20,15 @@ namespace risorius::media {
 
 namespace {
 
-constexpr std::array<unsigned char, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-
 /// Checks that the chunks (length, type, data, checksum) extend from the signature to IEND within the file. Otherwise libpng
 /// would complain about an incomplete file on standard error.
 bool chunks_are_whole(const std::vector<unsigned char>& bytes) {
-    std::size_t at = kSignature.size();
-    while (at + 12 <= bytes.size()) {
-        const std::size_t length = (std::size_t{bytes[at]} << 24) |
-                                   (std::size_t{bytes[at + 1]} << 16) |
-                                   (std::size_t{bytes[at + 2]} << 8) | bytes[at + 3];
-        if (length > bytes.size() - at - 12) return false;
-        if (std::memcmp(bytes.data() + at + 4, "IEND", 4) == 0) return true;
-        at += 12 + length;
+    for (std::size_t at = detail::kPngSignature.size();;) {
+        const auto chunk = detail::png_chunk(bytes, at);
+        if (!chunk || chunk->size > bytes.size() - at) return false;
+        if (chunk->type == "IEND") return true;
+        at += chunk->size;
     }
-    return false;
 }
 
 png_image described(int width_px, int height_px, png_uint_32 format) {
@@ -118,9 +110,7 @@ void write_grey_png(int width_px, int height_px, int bits,
 
 Image read_png(const std::filesystem::path& file) {
     const std::vector<unsigned char> bytes = detail::read_whole(file, "a PNG picture");
-    if (bytes.size() < kSignature.size() ||
-        !std::equal(kSignature.begin(), kSignature.end(), bytes.begin()))
-        throw Error(file.string(), "a PNG picture", "another kind of file");
+    if (!detail::is_png(bytes)) throw Error(file.string(), "a PNG picture", "another kind of file");
     if (!chunks_are_whole(bytes)) throw Error(file.string(), "a PNG picture", "one cut short");
 
     png_image png = described(0, 0, PNG_FORMAT_RGBA);

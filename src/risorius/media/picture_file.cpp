@@ -2,7 +2,6 @@
 #include "risorius/media/picture_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <new>
 #include <optional>
@@ -10,6 +9,7 @@
 #include "risorius/core/error.h"
 #include "risorius/core/read_file.h"
 #include "risorius/media/detail/ffmpeg.h"
+#include "risorius/media/detail/png_chunks.h"
 #include "risorius/media/image_file.h"
 
 namespace risorius::media {
@@ -139,22 +139,16 @@ std::optional<Image> read_tga(const std::vector<std::uint8_t>& bytes, const std:
 /// A PNG without what does not change its pixels: FFmpeg unpacks texts and profiles, of which a kilobyte can stand for a megabyte.
 /// Null for other files.
 std::optional<std::vector<std::uint8_t>> pixels_only(const std::vector<std::uint8_t>& bytes) {
-    constexpr std::array<std::uint8_t, 8> kPngBegin{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    constexpr std::size_t kAround = 12;  // length, type and checksum of a chunk
-    if (bytes.size() < kPngBegin.size() ||
-        !std::equal(kPngBegin.begin(), kPngBegin.end(), bytes.begin()))
-        return std::nullopt;
-    std::vector<std::uint8_t> out(kPngBegin.begin(), kPngBegin.end());
-    for (std::size_t at = kPngBegin.size(), length = 0; at + kAround <= bytes.size();
-         at += length) {
-        length = kAround;
-        for (std::size_t i = 0; i < 4; ++i) length += std::size_t{bytes[at + i]} << (24 - 8 * i);
-        length = std::min(length, bytes.size() - at);
-        const auto chunk = bytes.begin() + static_cast<std::ptrdiff_t>(at);
-        const std::string type(chunk + 4, chunk + 8);
-        const bool is_critical = (type[0] & 0x20) == 0;
-        if (is_critical || type == "tRNS")
-            out.insert(out.end(), chunk, chunk + static_cast<std::ptrdiff_t>(length));
+    if (!is_png(bytes)) return std::nullopt;
+    std::vector<std::uint8_t> out(kPngSignature.begin(), kPngSignature.end());
+    std::size_t at = kPngSignature.size();
+    while (const auto chunk = png_chunk(bytes, at)) {
+        const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+        const std::size_t size = std::min(chunk->size, bytes.size() - at);
+        const bool is_critical = (chunk->type[0] & 0x20) == 0;
+        if (is_critical || chunk->type == "tRNS")
+            out.insert(out.end(), from, from + static_cast<std::ptrdiff_t>(size));
+        at += size;
     }
     return out;
 }

@@ -20,7 +20,8 @@ namespace {
 /// Changes when poses are chosen, simulated or measured in another way.
 constexpr const char* kRecipe = "voice 6";
 
-/// Hash of everything that the poses depend on. Tables of expressions, action units and wrinkles do not change them.
+/// Hash of everything that makes the poses of a voice wrong. Visemes and action units only choose which mouths are simulated, so a
+/// voice stays right, and is kept, when their table changes. Expressions and wrinkles have no part in it.
 std::string hash_of(const scene::RigFiles& files) {
     Sha256 hash;
     const auto add = [&](const std::string& text) { hash.add(text.data(), text.size()); };

@@ -15,7 +15,7 @@ namespace risorius::talk {
 namespace {
 
 // Numbers of poses
-constexpr int kAround = 60, kClosed = 30, kLabiodental = 12, kRounded = 36, kRounds = 4;
+constexpr int kAround = 60, kClosed = 30, kLabiodental = 12, kPursed = 36, kRounds = 4;
 constexpr double kTouching_mm = 0.15;  // lips that touch
 constexpr double kSealStep_mm = 1.5, kSealEnd_mm = 4.5;
 constexpr int kIterations = 400;
@@ -54,12 +54,12 @@ class Fitter {
 
     RigVoice fit() {
         find_jaw_travel();
-        total_ = 16 + kAround + kClosed + kLabiodental + kRounded +
+        total_ = 16 + kAround + kClosed + kLabiodental + kPursed +
                  kRounds * static_cast<int>(std::size(kTargets));
         add_visemes();
         for (int i = 0; i < kClosed; ++i) add(closed(i));
         for (int i = 0; i < kLabiodental; ++i) add(labiodental(i));
-        for (int i = 0; i < kRounded; ++i) add(rounded(i));
+        for (int i = 0; i < kPursed; ++i) add(pursed(i));
         for (int i = 0; i < kAround; ++i) add(around(i));
         // Each round aims beyond a target by what the rounds before have missed it.
         std::vector<WantedMouth> targets = wanted_of_phones(), aims = targets;
@@ -223,7 +223,7 @@ class Fitter {
 
     /// Pursed lips: two of three are turned outwards as well, which leaves a small round opening that neither makes alone; the
     /// others press, for closures beside rounded vowels.
-    Asked rounded(int i) const {
+    Asked pursed(int i) const {
         Asked out = none();
         const auto unit = [&](const char* name, double share) {
             if (const auto expansion = rig::expansion_named(rig_, name))

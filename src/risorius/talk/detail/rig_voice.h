@@ -74,8 +74,8 @@ class RigVoice {
 /// Spacing of jaw_open in the table of the jaw's travel.
 inline constexpr double kJawStep = 0.05;
 
-/// Simulates the poses of a rig in equilibrium: those of its visemes, random ones around them, and three rounds of mixtures for
-/// the targets of the phones. Takes a few minutes. `report`: called with the fraction that is done.
+/// Simulates the poses of a rig in equilibrium: its visemes, closed, labiodental and pursed mouths, random ones around the visemes,
+/// and four rounds of mixtures for the targets of the phones. Takes a few minutes. `report`: called with the fraction that is done.
 RigVoice fit_voice(face::Face& face, const rig::RigDescription& rig,
                    const std::function<void(double fraction)>& report);
 
