@@ -299,6 +299,10 @@ TEST(Person, ErrorsNameThePlace) {
               "ancestry: expected none, as the model is 1, found one");
     EXPECT_NE(message({.seed = 1, .ancestry = "afrikan"}).find("(did you mean \"african\"?)"),
               std::string::npos);
+    EXPECT_EQ(message({.seed = 7, .shape = {"lips=1"}}),
+              "shape: expected a shape of model 2, found \"lips\", which model 1 has");
+    EXPECT_EQ(message({.shape = {"tip_width=1"}}),
+              "shape: expected a shape of model 1, found \"tip_width\", which model 2 has");
     EXPECT_EQ(message({.shape = {"brow_arch=5"}, .model = 2}),
               "shape/brow_arch: expected [-4, 4], found 5");
     EXPECT_EQ(message({.identity = "ada", .morph = {"ada", "bruno", "0.5"}}),

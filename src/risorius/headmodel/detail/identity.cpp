@@ -55,7 +55,15 @@ void check_identity(const Identity& identity, const DesignTables& tables, const 
     check_identity_hair(identity.hairdo, place);
     const auto names = shape_parameters(tables, identity.model);
     const bool person = identity.model == Model::kPopulation;
+    const auto other = shape_parameters(tables, person ? Model::kFamily : Model::kPopulation);
+    const auto has = [](const std::vector<std::string>& all, const std::string& name) {
+        return std::find(all.begin(), all.end(), name) != all.end();
+    };
     for (const auto& [parameter, value] : identity.shape) {
+        if (has(other, parameter) && !has(names, parameter))
+            throw Error(
+                place("shape"), person ? "a shape of model 2" : "a shape of model 1",
+                "\"" + parameter + (person ? "\", which model 1 has" : "\", which model 2 has"));
         index_of_name(place("shape"), parameter, names);
         check_range(place("shape") + "/" + parameter, value,
                     person ? kPersonShapeRange : kShapeRange);
