@@ -129,13 +129,47 @@ TEST(Person, GreysAndBaldsAsAdultsDo) {
         double mean = 0, lost = 0;
         for (unsigned seed = 1; seed <= kPersons; ++seed) {
             const Identity person = random_person(seed, {.sex = 1, .age = age}, design());
-            mean += person.hairdo.grey / kPersons;
+            mean += person.hairdo.grey.value() / kPersons;
             lost += (person.hairdo.style == "bald_fringe") / static_cast<double>(kPersons);
         }
         EXPECT_NEAR(mean, grey, 0.08) << age;
         EXPECT_NEAR(lost, bald, 0.14) << age;
     }
     EXPECT_EQ(random_person(9, {.age = 25}, design()).hairdo.age_lines < 0.4, true);
+}
+
+/// Seeds in a row are spread over the population: of 24 half are women, and each ancestry and each third of the ages has its share.
+TEST(Person, SeedsInARowFillThePopulationEvenly) {
+    for (const unsigned first : {1u, 25u, 1000u}) {
+        int women = 0;
+        std::map<std::string, int> ancestries;
+        std::map<int, int> thirds;
+        for (unsigned seed = first; seed < first + 24; ++seed) {
+            const Identity person = random_person(seed, {}, design());
+            women += person.sex < 0;
+            ++ancestries[person.ancestry.begin()->first];
+            ++thirds[static_cast<int>((person.age - 20) / 18.4)];
+        }
+        EXPECT_NEAR(women, 12, 2) << first;
+        EXPECT_EQ(ancestries.size(), design().ancestries.size());
+        for (const auto& [name, count] : ancestries) EXPECT_NEAR(count, 6, 2) << name;
+        for (const auto& [third, count] : thirds) EXPECT_NEAR(count, 8, 2) << third;
+    }
+}
+
+/// Of women with grey hair a good half colour it, of men one in ten; half of the women paint their lips.
+TEST(Person, ColoursHairAndLipsAsAdultsDo) {
+    constexpr int kPersons = 400;
+    for (const auto& [sex, coloured, painted] : {std::tuple{-1.0, 0.55, 0.5}, {1.0, 0.1, 0.0}}) {
+        double dark = 0, red = 0;
+        for (unsigned seed = 1; seed <= kPersons; ++seed) {
+            const Identity person = random_person(seed, {.sex = sex, .age = 75}, design());
+            dark += (person.hairdo.grey.value() < 0.16) / static_cast<double>(kPersons);
+            red += (person.lipstick > 0) / static_cast<double>(kPersons);
+        }
+        EXPECT_NEAR(dark, coloured, 0.08) << sex;
+        EXPECT_NEAR(red, painted, 0.08) << sex;
+    }
 }
 
 TEST(Person, HasSixtyParametersAndMore) {

@@ -90,6 +90,19 @@ TEST(Locks, LinesOfAgeAreThereOnlyWhenAskedForAndAreTheSameForTheSameSeed) {
     EXPECT_EQ(count(), 0U) << "at 25 years";
 }
 
+TEST(Locks, WhiteHairsComeWithAgeUnlessTheirShareIsGiven) {
+    Appearance appearance;
+    appearance.hair_tone = {0.1, 0.1, 0.1};
+    appearance.age = 0.9;  // 70 years
+    EXPECT_NEAR(white_share(appearance), 0.80, 0.01);
+    EXPECT_GT(hair_tone_at(appearance).x(), 0.4);
+    appearance.grey_hair = 0.05;
+    EXPECT_EQ(white_share(appearance), 0.05);
+    EXPECT_LT(hair_tone_at(appearance).x(), 0.13);
+    appearance.age = 0;
+    EXPECT_EQ(white_share(appearance), 0.05);
+}
+
 TEST(Locks, TheForeheadStaysFreeOfAShortStyle) {
     const HairyHead head;
     const Points places = places_of(hair_on(head.scene, "crop"), head.scene.rest);

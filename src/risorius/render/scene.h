@@ -74,7 +74,7 @@ struct Appearance {
     std::string hair_style = "shaven";
     std::string hairline_form = "even";  ///< a name of hairline_form_names()
     double age_lines = 0.0;              ///< 0..1, strength of the lines that come with age
-    double grey_hair = 0.0;              ///< 0..1, share of white hairs beyond what comes with age
+    std::optional<double> grey_hair;     ///< 0..1, share of white hairs; unset: as comes with age
     /// A name of beard_form_names(): where a beard grows, and whether it is cut at the skin ("stubble") or trimmed
     std::string beard_form = "stubble";
     double brow_density = 1.0;  ///< hairs of the brows as a multiple of the usual number

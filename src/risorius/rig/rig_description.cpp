@@ -120,6 +120,9 @@ struct FieldReader {
     void operator()(const char* key, double& value, Range range) const {
         if (const auto found = json.find(key)) value = found->number(range);
     }
+    void operator()(const char* key, std::optional<double>& value, Range range) const {
+        if (const auto found = json.find(key)) value = found->number(range);
+    }
     void operator()(const char* key, Vec3& value) const {
         if (const auto found = json.find(key)) value = found->vec3();
     }
@@ -145,6 +148,9 @@ struct FieldKeys {
 struct FieldWriter {
     Json& json;
     void operator()(const char* key, double& value, Range) const { json[key] = value; }
+    void operator()(const char* key, std::optional<double>& value, Range) const {
+        if (value) json[key] = *value;
+    }
     void operator()(const char* key, Vec3& value) const {
         json[key] = {value.x(), value.y(), value.z()};
     }
@@ -462,7 +468,7 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     json["appearance"] = fields_of(rig.appearance);
     // Rigs that ask for no hair and no lines stay as they were before there were any.
     const Json usual = fields_of(AppearanceDescription{});
-    for (const char* key : {"hair_style", "hairline_form", "grey_hair", "age_lines", "beard_form",
+    for (const char* key : {"hair_style", "hairline_form", "age_lines", "beard_form",
                             "brow_density", "brow_width", "skin_gloss", "garment", "garment_tone"})
         if (json["appearance"][key] == usual[key]) json["appearance"].erase(key);
     if (const auto source = options.standard_folder / kCalibrationFile;

@@ -24,7 +24,6 @@ constexpr double Identity::*kBlended[] = {
     &Identity::sex,      &Identity::age,     &Identity::freckles, &Identity::scalp_hair,
     &Identity::hairline, &Identity::temples, &Identity::beard,    &Identity::lipstick};
 const std::pair<double IdentityHair::*, Range> kBlendedHair[] = {
-    {&IdentityHair::grey, kShareRange},
     {&IdentityHair::age_lines, kShareRange},
     {&IdentityHair::brow_density, kBrowDensityRange},
     {&IdentityHair::brow_width, kBrowWidthRange},
@@ -139,11 +138,18 @@ Identity blended(const std::vector<Identity>& persons, const std::vector<double>
     // Pigments are blended where everybody has them; else there is a name.
     double melanin = 0, haemoglobin = 0;
     bool by_pigments = true;
+    out.hairdo.grey = 0;
     for (std::size_t k = 0; k < persons.size(); ++k) {
+        // White hairs come with the blended age where one of them has as many as come with age.
+        const std::optional<double>& grey = persons[k].hairdo.grey;
+        out.hairdo.grey = grey && out.hairdo.grey
+                              ? std::optional(*out.hairdo.grey + weights[k] * *grey)
+                              : std::nullopt;
         by_pigments = by_pigments && persons[k].melanin;
         melanin += weights[k] * persons[k].melanin.value_or(0);
         haemoglobin += weights[k] * persons[k].haemoglobin;
     }
+    if (out.hairdo.grey) out.hairdo.grey = std::clamp(*out.hairdo.grey, 0.0, 1.0);
     out.melanin.reset();
     if (by_pigments) out.melanin = std::clamp(melanin, 0.0, 1.0);
     out.haemoglobin =

@@ -47,7 +47,7 @@ void check_identity_hair(const IdentityHair& hair,
                         format_number(part));
     index_of_name(place("beard_form"), hair.beard_form, render::beard_form_names());
     for (const auto& [key, value] :
-         {std::pair{"grey_hair", hair.grey}, std::pair{"age_lines", hair.age_lines}})
+         {std::pair{"grey_hair", hair.grey.value_or(0)}, std::pair{"age_lines", hair.age_lines}})
         if (!(value >= 0 && value <= 1)) throw Error(place(key), "[0, 1]", format_number(value));
     if (!(hair.skin_gloss >= kSkinGlossRange.min && hair.skin_gloss <= kSkinGlossRange.max))
         throw Error(place("skin_gloss"), "[0, 2]", format_number(hair.skin_gloss));
@@ -57,7 +57,7 @@ void write_identity_hair(const IdentityHair& hair, Json& json) {
     const IdentityHair usual;
     if (hair.style != usual.style) json["hair_style"] = hair.style;
     if (hair.hairline_form != usual.hairline_form) json["hairline_form"] = hair.hairline_form;
-    if (hair.grey != usual.grey) json["grey_hair"] = hair.grey;
+    if (hair.grey) json["grey_hair"] = *hair.grey;
     if (hair.age_lines != usual.age_lines) json["age_lines"] = hair.age_lines;
     if (hair.seed != usual.seed) json["seed"] = hair.seed;
     if (hair.beard_form != usual.beard_form) json["beard_form"] = hair.beard_form;

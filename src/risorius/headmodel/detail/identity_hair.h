@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ inline constexpr Range kShareRange{0, 1}, kBrowDensityRange{0, 3}, kBrowWidthRan
 struct IdentityHair {
     std::string style = "shaven";        ///< a name of render::hair_style_names()
     std::string hairline_form = "even";  ///< a name of render::hairline_form_names()
-    double grey = 0;                     ///< 0..1, share of white hairs beyond what comes with age
+    std::optional<double> grey;          ///< 0..1, share of white hairs; unset: as comes with age
     double age_lines = 0;                ///< 0..1, strength of the lines that come with age
     int seed = 1;                        ///< of locks, hairs, pores and spots
     std::string beard_form = "stubble";  ///< a name of render::beard_form_names()

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "risorius/core/known_names.h"
 #include "risorius/headmodel/detail/draw.h"
@@ -12,7 +13,24 @@ namespace {
 
 constexpr double kCut = 2.5;  ///< standard deviations; beyond them nobody is drawn
 constexpr double kBaldTemples_mm = 11;
+constexpr double kYoungest = 20, kOldest = 75;  ///< years
 constexpr unsigned kHairSequence = 0x5eed0000, kSkinSequence = 0x5c1d0000;
+
+/// Where a seed stands among all persons: seeds in a row take turns in sex and fill three directions, 0..1, evenly, so that few
+/// of them share age, ancestry and hair. The steps are the fractions of square roots, whose multiples are spread most evenly.
+struct Place {
+    bool woman;
+    double age, ancestry, hair;
+};
+
+Place place_of(unsigned seed) {
+    const auto along = [&](double step) {
+        const double at = 0.5 + step * seed;
+        return at - std::floor(at);
+    };
+    return {seed % 2 == 1, along(std::numbers::sqrt2), along(std::numbers::phi),
+            along(std::numbers::sqrt3)};
+}
 
 /// Tones that are usual, from the names of the tones table, in thirds.
 struct Colours {
@@ -66,7 +84,7 @@ std::string drawn_style(double place, const Identity& person, const std::string&
 void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& tables,
                Identity& person) {
     Draw draw(seed + kHairSequence);
-    person.hairdo.style = drawn_style(draw.even(), person, ancestry, tables);
+    person.hairdo.style = drawn_style(place_of(seed).hair, person, ancestry, tables);
     const double form = draw.even();
     const bool man = person.sex > 0;
     if (person.temples < kBaldTemples_mm)
@@ -80,13 +98,29 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
     person.hairdo.age_lines = to_hundredths(std::clamp((seems - 25) / 35, 0.0, 1.0));
     // In the mean 26 % of grey hair at 53, 32 % at 58, 40 % at 63 years (Panhard et al. 2012).
     const double greying = person.age + 10 * std::clamp(draw.normal(), -2.0, 2.0);
-    person.hairdo.grey = to_hundredths(std::clamp((greying - 40) / 50, 0.0, 1.0));
+    double grey = std::clamp((greying - 40) / 50, 0.0, 1.0);
+    // Many colour their hair once it is grey, women more often than men; the shares are estimates.
+    const double coloured = draw.even(), colour = draw.even();
+    if (grey > 0.05 && coloured < (man ? 0.1 : 0.55)) {
+        grey *= 0.15;
+        if (ancestry == "european")
+            person.hair = colour < 0.45  ? "brown"
+                          : colour < 0.7 ? "blond"
+                          : colour < 0.8 ? "red"
+                                         : "black";
+        else if (ancestry != "african")
+            person.hair = colour < 0.4 ? "brown" : "black";
+    }
+    person.hairdo.grey = to_hundredths(grey);
     person.hairdo.seed = static_cast<int>(seed % 100000) + 1;
     // Brows of women are thinner, and often plucked.
     const double brow = std::clamp(draw.normal(), -2.0, 2.0),
                  height = std::clamp(draw.normal(), -2.0, 2.0);
     person.hairdo.brow_density = to_hundredths((man ? 1.25 : 0.95) * std::exp(0.35 * brow));
     person.hairdo.brow_width = to_hundredths((man ? 1.15 : 0.75) * std::exp(0.25 * height));
+    // Half of the women paint their lips; an estimate.
+    const double painted = draw.even(), red = draw.even();
+    if (!man && painted < 0.5) person.lipstick = to_hundredths(0.2 + 0.5 * red);
     // Of men six in ten are shaved or have stubble.
     const double kind = draw.even(), growth = draw.even();
     if (man && kind >= 0.6) {
@@ -141,14 +175,15 @@ std::map<std::string, double> person_shape(const Identity& identity, const Desig
 }
 
 Identity random_person(unsigned seed, const PersonChoice& choice, const DesignTables& tables) {
-    constexpr double kYoungest = 20, kOldest = 75;
+    const Place place = place_of(seed);
     Draw draw(seed);
     Identity person;
     person.model = Model::kPopulation;
     person.name = "seed" + std::to_string(seed);
-    const double sex = draw.even() < 0.5 ? -1 : 1;
-    const double age = std::round(kYoungest + (kOldest - kYoungest) * draw.even());
-    const std::string drawn = draw.one_of(tables.ancestries);
+    const double sex = place.woman ? -1 : 1;
+    const double age = std::round(kYoungest + (kOldest - kYoungest) * place.age);
+    const std::string drawn = tables.ancestries[static_cast<std::size_t>(
+        place.ancestry * static_cast<double>(tables.ancestries.size()))];
     const std::string& ancestry = choice.ancestry ? *choice.ancestry : drawn;
     person.sex = choice.sex.value_or(sex);
     person.age = choice.age.value_or(age);

@@ -99,7 +99,8 @@ void add_look(const Scene& scene, CacheKey& key) {
                  skin_gloss, garment, garment_tone] = appearance;
     key.add(skin_tone).add(lip_tone).add(hair_tone).add(iris_tone).add(freckles).add(scalp_hair);
     key.add(hairline_mm).add(temples_mm).add(hair_length_mm).add(beard_length_mm).add(beard);
-    key.add(age).add(seed).add(hair_style).add(hairline_form).add(age_lines).add(grey_hair);
+    key.add(age).add(seed).add(hair_style).add(hairline_form).add(age_lines);
+    key.add(grey_hair.value_or(-1.0));  // no share is below 0
     key.add(beard_form).add(brow_density).add(brow_width);
     // Garment and gloss of the skin are not baked.
 }

@@ -8,6 +8,7 @@
 #include "risorius/core/counter_rng.h"
 #include "risorius/render/detail/shaders.h"
 #include "risorius/render/detail/skin_paint.h"
+#include "risorius/render/detail/skin_plan.h"
 #include "risorius/render/detail/strand_texture.h"
 
 namespace risorius::render {

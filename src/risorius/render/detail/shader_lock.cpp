@@ -67,7 +67,12 @@ uniform bool has_white;
 void main() {
     vec2 hairs = texture(strand_map, strand).rg;
     float bright = hairs.r + hairs.r * hairs.r;      // gaps between strands are dark
-    vec3 own = has_white ? mix(dark, white, min(hairs.g * (1.0 + grey), 1.0)) : dark;
+    vec3 own = dark;
+    if (has_white) {
+        // Dark hairs swallow light that white ones beside them scatter: a quarter of white hairs looks dark, not silver.
+        vec3 root = mix(sqrt(dark), sqrt(white), min(hairs.g * (1.0 + grey), 1.0));
+        own = root * root;
+    }
     colour = vec4(shown(own * (0.25 + 1.1 * bright) + shine * bright), told());
 }
 )";

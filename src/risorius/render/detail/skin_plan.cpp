@@ -233,9 +233,13 @@ double beard_density(const SkinPlan& plan, const Vec3& rest) {
     return t * t * (3 - 2 * t);
 }
 
+double white_share(const Appearance& appearance) {
+    return appearance.grey_hair.value_or(0.85 * std::clamp(1.6 * appearance.age - 0.5, 0.0, 1.0));
+}
+
 Vec3 hair_tone_at(const Appearance& appearance) {
-    const double grey = std::clamp(1.6 * appearance.age - 0.5, 0.0, 1.0);
-    return appearance.hair_tone + 0.85 * grey * (Vec3(0.60, 0.555, 0.50) - appearance.hair_tone);
+    return appearance.hair_tone +
+           white_share(appearance) * (Vec3(0.60, 0.555, 0.50) - appearance.hair_tone);
 }
 
 double scalp_paint(const Appearance& appearance) {

@@ -52,7 +52,10 @@ SkinPlan plan_skin(const Scene& scene, const Vec3& paint_centre);
 /// Density of a beard at a point of the skin, 0..1.
 double beard_density(const SkinPlan& plan, const Vec3& rest);
 
-/// Tone of the hair at the age of the appearance: grey from middle age on.
+/// Share of white hairs: what the appearance says, or else what comes with its age.
+double white_share(const Appearance& appearance);
+
+/// Tone of the hair with its white hairs.
 Vec3 hair_tone_at(const Appearance& appearance);
 
 /// How dark the scalp is painted, 0..1. Between locks it is as dark as their roots.

@@ -12,10 +12,6 @@
 
 namespace risorius::render {
 
-double white_share(const Appearance& appearance) {
-    return std::max(appearance.grey_hair, std::clamp(1.6 * appearance.age - 0.5, 0.0, 1.0) * 0.85);
-}
-
 GLuint make_strand_texture(unsigned seed, double white_share) {
     constexpr int kAcross = 256, kAlong = 256, kStrands = 900;
     constexpr auto kCount = static_cast<std::size_t>(kAcross) * kAlong;

@@ -8,9 +8,6 @@
 
 namespace risorius::render {
 
-/// The share of hairs without pigment, 0..1: what the appearance says, or what comes with its age.
-double white_share(const Appearance& appearance);
-
 /// Makes the texture: strands run along y. Red: brightness, 0.5 on average; green: the share of white hairs. The context must be
 /// current.
 GLuint make_strand_texture(unsigned seed, double white_share);
