@@ -97,6 +97,7 @@ talk::CheckedSpeech render_speech(SpeakArguments& arguments, talk::SpokenResult&
         options.rig = seen_from(out, options.base->at("rig").path());
     else
         options.rig = seen_from(out, data_folder() / "rigs/adult/rig.json");
+    if (arguments.passes > 0) options.adjust = talk::usual_changes(result.spoken.utterance, table);
     Json script = talk::speak_script(result.spoken.utterance, options);
     const auto save = [&] { outputs.write_text(script_file, json_text(script, 1) + "\n"); };
     save();
@@ -124,8 +125,10 @@ talk::CheckedSpeech render_speech(SpeakArguments& arguments, talk::SpokenResult&
         if (pass >= arguments.passes) break;
         std::vector<speech::ClosureChange> changes = talk::changes_for(closures, options.adjust);
         // Closures come first: vowels are widened in the last pass, which counts only if no closure is lost.
-        if (pass + 1 == arguments.passes || same(changes, options.adjust))
-            changes = talk::widened(best.vowels.back(), best_adjust);
+        if (pass + 1 == arguments.passes || same(changes, options.adjust)) {
+            const bool all_held = best.held == best.total;
+            changes = talk::widened(best.vowels.back(), all_held ? best_adjust : changes);
+        }
         if (same(changes, options.adjust)) break;
         options.adjust = std::move(changes);
         script = talk::speak_script(result.spoken.utterance, options);
@@ -258,9 +261,9 @@ void add_speak(CLI::App& app) {
         ->check(CLI::Range(0.0, 2.0));
     command
         ->add_option("--passes", arguments->passes,
-                     "How many times to correct lip closures that stay open, 0 to 3")
+                     "How many times to correct lip closures that stay open, 0 to 8")
         ->capture_default_str()
-        ->check(CLI::Range(0, 3));
+        ->check(CLI::Range(0, 8));
     add_view(*command, arguments->render, arguments->size);
     add_common(*command, arguments->common);
     command->footer(

@@ -24,6 +24,8 @@ constexpr double kBefore_s = 0.15, kAfter_s = 0.2;
 constexpr double kLate_s = 0.010, kMaxEarlier_s = 0.03, kOpensLate_s = 0.017;
 constexpr double kDeeper = 2, kDeeperAtLeast_mm = 0.6, kDeepest_mm = 6;
 constexpr double kStuck_s = 0.05, kLessDeep = 0.6;
+// Median of what 15 closures of two sentences needed on the adult: 2.4 mm
+constexpr double kUsuallyDeeper_mm = 2;
 // Vowels that open too little: what is left as it is, and the most that is asked for beyond the plan
 constexpr double kMissing_mm = 1, kWider = 0.8, kWidest_mm = 6;
 constexpr double kEarliest_s = 0.06, kShortest_s = 0.03;
@@ -134,6 +136,14 @@ std::vector<ClosureChange> widened(const std::vector<VowelCheck>& checks,
         to.wider_mm = std::min(kWidest_mm, to.wider_mm + kWider * missing_mm);
     }
     return before;
+}
+
+std::vector<ClosureChange> usual_changes(const speech::Utterance& utterance,
+                                         const speech::PhoneTable& table) {
+    std::vector<ClosureChange> out;
+    for (const LipClosure& closure : speech::targets_of(utterance, table).closures)
+        out.push_back({.phone = closure.first_phone, .deeper_mm = kUsuallyDeeper_mm});
+    return out;
 }
 
 std::vector<ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,

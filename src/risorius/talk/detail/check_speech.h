@@ -58,6 +58,10 @@ std::vector<VowelCheck> check_vowels(const MouthTrack& track, const PlacedUttera
 std::vector<speech::ClosureChange> widened(const std::vector<VowelCheck>& checks,
                                            std::vector<speech::ClosureChange> before);
 
+/// What most closures need beyond the plan, so that the first simulation is near the end: 2 mm deeper.
+std::vector<speech::ClosureChange> usual_changes(const speech::Utterance& utterance,
+                                                 const speech::PhoneTable& table);
+
 /// What would mend the closures that leak, come late or open late: deeper by twice the gap and 0.6 mm, earlier by what is
 /// missing. Added to the changes that were in force.
 std::vector<speech::ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
