@@ -202,6 +202,23 @@ TEST(RenderJob, TakesAScriptFromMemoryAndNamesItInMessages) {
 }
 
 // A draft takes steps that are twice as long.
+/// Frames hold no sound. A script that speaks gives them all the same, and the record says where the sound is.
+TEST(RenderJob, OfAScriptThatSpeaksMayBeAFolderOfFrames) {
+    RenderRequest request;
+    request.script = kRoot / "samples/talk/english.json";
+    request.out = "frames/";
+    const RenderJob job = plan_render_job(request);
+    EXPECT_EQ(job.video.sound, nullptr);
+    ASSERT_EQ(job.warnings.size(), 1u);
+    EXPECT_EQ(job.warnings[0].substr(0, job.warnings[0].find(" is in ")),
+              "a folder of frames has no sound; what is said");
+    EXPECT_EQ(fs::path(job.warnings[0]).filename(), "english.wav");
+    request.out = "talk.mp4";
+    const RenderJob video = plan_render_job(request);
+    EXPECT_NE(video.video.sound, nullptr);
+    EXPECT_TRUE(video.warnings.empty());
+}
+
 TEST(RenderJob, LeavesTheHairOutWhereItIsAskedTo) {
     const TemporaryFolder folder;
     const fs::path rig = own_rig(folder.path());

@@ -255,6 +255,11 @@ void plan_times(const RenderRequest& request, RenderJob& job) {
 /// The sound of what is said, unless the request has another.
 void add_spoken_sound(const RenderRequest& request, RenderJob& job) {
     if (!request.sound || request.audio || job.still || job.speech.sound_file.empty()) return;
+    if (request.out.filename().empty()) {
+        job.warnings.push_back("a folder of frames has no sound; what is said is in " +
+                               job.speech.sound_file.string());
+        return;
+    }
     job.video.sound =
         std::make_shared<media::Recording>(media::open_recording(job.speech.sound_file));
     job.video.sound_offset_samples = job.speech.sound_offset_samples;

@@ -70,9 +70,10 @@ struct RenderJob {
     // Outputs
     std::filesystem::path out;
     std::filesystem::path passes_folder;
-    std::vector<std::string> passes;  ///< names of pass_names()
-    bool landmarks = false;           ///< whether the table has the positions of landmarks
-    bool emg = false;                 ///< whether the table has simulated EMG
+    std::vector<std::string> passes;    ///< names of pass_names()
+    std::vector<std::string> warnings;  ///< what the output leaves out, for the record
+    bool landmarks = false;             ///< whether the table has the positions of landmarks
+    bool emg = false;                   ///< whether the table has simulated EMG
     media::VideoOptions video;
 
     double planning_s = 0;  ///< time that plan_render_job() took

@@ -85,6 +85,7 @@ RunRecord describe(const RenderJob& job, const face::Face& face) {
     record.dropped_tets = face.diagnostics().dropped_tets();
     record.fibres = face.diagnostics().fibre_count();
     record.warnings = warnings_about(job.script, job.rig->files.rig.muscles);
+    record.warnings.insert(record.warnings.end(), job.warnings.begin(), job.warnings.end());
     record.timing.threads = job.threads;
     return record;
 }
