@@ -40,7 +40,7 @@ struct SpeakArguments {
     fs::path script;
     speech::SpeechStyle style;
     double gestures = 0.6, blinks = 1;
-    int passes = 2;
+    int passes = 3;
 };
 
 /// TEXT is what to say, a file of text, or an utterance.
@@ -125,11 +125,14 @@ talk::CheckedSpeech render_speech(SpeakArguments& arguments, talk::SpokenResult&
         if (pass >= arguments.passes) break;
         std::vector<speech::ClosureChange> changes = talk::changes_for(closures, options.adjust);
         // Closures come first: vowels are widened in the last pass, which counts only if no closure is lost.
-        if (pass + 1 == arguments.passes || same(changes, options.adjust)) {
-            const bool all_held = best.held == best.total;
+        const bool all_held = best.held == best.total;
+        const bool last =
+            pass + 1 >= arguments.passes || (pass > 0 && all_held) || same(changes, options.adjust);
+        if (last) {
             changes = talk::widened(best.vowels.back(), all_held ? best_adjust : changes);
+            if (same(changes, options.adjust)) break;
+            pass = arguments.passes - 1;
         }
-        if (same(changes, options.adjust)) break;
         options.adjust = std::move(changes);
         script = talk::speak_script(result.spoken.utterance, options);
     }

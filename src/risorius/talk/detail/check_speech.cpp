@@ -22,7 +22,9 @@ constexpr double kOpenGap_mm = 0.5;
 constexpr double kBefore_s = 0.15, kAfter_s = 0.2;
 // Lateness that is left as it is, and the most that one pass changes
 constexpr double kLate_s = 0.010, kMaxEarlier_s = 0.03, kOpensLate_s = 0.017;
-constexpr double kDeeper = 2, kDeeperAtLeast_mm = 0.6, kDeepest_mm = 6;
+constexpr double kDeeper = 2, kDeeperAtLeast_mm = 0.6, kDeepest_mm = 8;
+// The lips gain less than half of the time by which they begin earlier.
+constexpr double kEarlier = 2;
 constexpr double kStuck_s = 0.05, kLessDeep = 0.6;
 // Median of what 15 closures of two sentences needed on the adult: 2.4 mm
 constexpr double kUsuallyDeeper_mm = 2;
@@ -156,7 +158,7 @@ std::vector<ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
             const double late_s = std::isnan(check.contact_s)
                                       ? kMaxEarlier_s / 2
                                       : check.contact_s - check.closure_s - kLate_s / 2;
-            change.earlier_s = std::clamp(late_s, 0.0, kMaxEarlier_s);
+            change.earlier_s = std::clamp(kEarlier * late_s, 0.0, kMaxEarlier_s);
         } else if (check.contact_s > check.closure_s + kLate_s) {
             change.earlier_s =
                 std::min(check.contact_s - check.closure_s - kLate_s / 2, kMaxEarlier_s);

@@ -62,7 +62,7 @@ std::vector<speech::ClosureChange> widened(const std::vector<VowelCheck>& checks
 std::vector<speech::ClosureChange> usual_changes(const speech::Utterance& utterance,
                                                  const speech::PhoneTable& table);
 
-/// What would mend the closures that leak, come late or open late: deeper by twice the gap and 0.6 mm, earlier by what is
+/// What would mend the closures that leak, come late or open late: deeper by twice the gap and 0.6 mm, earlier by twice what is
 /// missing. Added to the changes that were in force.
 std::vector<speech::ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
                                                std::vector<speech::ClosureChange> before);
