@@ -25,6 +25,9 @@ import numpy as np  # noqa: E402
 
 import risorius  # noqa: E402
 
+# A shell that runs this in the background ignores the signal, and so would Python.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
 
 class FaceTest(unittest.TestCase):
     @classmethod
