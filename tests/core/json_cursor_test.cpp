@@ -221,6 +221,13 @@ TEST(JsonCursor, PathsStartFromTheFolderOfTheirFile) {
     EXPECT_EQ(root.at("b").path(), "/data/mesh.obj");
 }
 
+TEST(JsonCursor, APathWithAZeroByteIsNotThatOfAnotherFile) {
+    const JsonCursor root =
+        JsonCursor::from_json(Json::parse(R"({"a": "mesh.obj\u0000.png"})"), "rig.json");
+    EXPECT_EQ(message_of([&] { root.at("a").path(); }),
+              "rig.json:/a: expected a path without a zero byte, found \"mesh.obj\\u0000.png\"");
+}
+
 TEST(JsonCursor, TableIsFollowedIntoItsFile) {
     const TemporaryFile table("{\"x\": 0.25}", "table.json");
     const JsonCursor root =

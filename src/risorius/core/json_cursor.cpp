@@ -335,7 +335,10 @@ Vec3 JsonCursor::vec3() const {
 }
 
 std::filesystem::path JsonCursor::path() const {
-    const std::filesystem::path written = string();
+    const std::string text = string();
+    // The system would take what stands before it for the name of another file.
+    if (text.find('\0') != std::string::npos) fail("a path without a zero byte");
+    const std::filesystem::path written = text;
     return written.is_absolute() ? written : (folder() / written).lexically_normal();
 }
 
