@@ -139,6 +139,12 @@ TEST(JsonCursor, KeysAndItemsKeepTheOrderOfTheFile) {
     EXPECT_EQ(message_of([] { rig("true").keys(); }), "rig.json:/: expected an object, found true");
 }
 
+TEST(JsonCursor, AnArrayOfMillionsOfItemsIsRefused) {
+    const JsonCursor root = JsonCursor::from_json(Json(1000001, Json(0)), "rig.json");
+    EXPECT_EQ(message_of([&] { root.items(); }),
+              "rig.json:/: expected an array of at most 1000000, found one of 1000001");
+}
+
 TEST(JsonCursor, NumberOutsideItsRangeSaysBoth) {
     const JsonCursor root = rig(R"({"a": -0.01, "b": "x", "c": 1e-3, "d": null})");
     EXPECT_EQ(message_of([&] {
