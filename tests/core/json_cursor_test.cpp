@@ -139,6 +139,12 @@ TEST(JsonCursor, KeysAndItemsKeepTheOrderOfTheFile) {
     EXPECT_EQ(message_of([] { rig("true").keys(); }), "rig.json:/: expected an object, found true");
 }
 
+TEST(JsonCursor, AnArrayOfMillionsOfItemsIsRefused) {
+    const JsonCursor root = JsonCursor::from_json(Json(1000001, Json(0)), "rig.json");
+    EXPECT_EQ(message_of([&] { root.items(); }),
+              "rig.json:/: expected an array of at most 1000000, found one of 1000001");
+}
+
 TEST(JsonCursor, NumberOutsideItsRangeSaysBoth) {
     const JsonCursor root = rig(R"({"a": -0.01, "b": "x", "c": 1e-3, "d": null})");
     EXPECT_EQ(message_of([&] {
@@ -219,6 +225,13 @@ TEST(JsonCursor, PathsStartFromTheFolderOfTheirFile) {
     EXPECT_EQ(root.folder(), "rigs/anna");
     EXPECT_EQ(root.at("a").path(), "rigs/mesh.obj");
     EXPECT_EQ(root.at("b").path(), "/data/mesh.obj");
+}
+
+TEST(JsonCursor, APathWithAZeroByteIsNotThatOfAnotherFile) {
+    const JsonCursor root =
+        JsonCursor::from_json(Json::parse(R"({"a": "mesh.obj\u0000.png"})"), "rig.json");
+    EXPECT_EQ(message_of([&] { root.at("a").path(); }),
+              "rig.json:/a: expected a path without a zero byte, found \"mesh.obj\\u0000.png\"");
 }
 
 TEST(JsonCursor, TableIsFollowedIntoItsFile) {

@@ -11,6 +11,7 @@
 #include "media/pictures.h"
 #include "message_of.h"
 #include "risorius/core/error.h"
+#include "risorius/media/mono_sound.h"
 #include "risorius/media/video_reader.h"
 #include "risorius/media/video_writer.h"
 
@@ -338,6 +339,15 @@ TEST(Sound, OfDaysIsRefusedBeforeItIsDecoded) {
     EXPECT_EQ(
         without_folder(message_of([&] { open_recording(file); }), folder),
         "days.wav: expected at most 2e9 samples in all channels, six hours in stereo, found more");
+}
+
+TEST(Sound, InMemoryHasALimit) {
+    const TemporaryFolder folder;
+    write_bytes(folder / "a.wav", wav_of(1, 16, std::string(20, '\1'), 20));
+    EXPECT_EQ(read_mono_sound(folder / "a.wav", 10).samples.size(), 10u);
+    EXPECT_EQ(without_folder(message_of([&] { read_mono_sound(folder / "a.wav", 9); }), folder),
+              "a.wav: expected at most 9 samples in each channel, found 10");
+    EXPECT_EQ(sound_rate_hz(folder / "a.wav"), read_mono_sound(folder / "a.wav").rate_hz);
 }
 
 TEST(Sound, NamesWhatIsWrongWithAFile) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -298,6 +299,12 @@ TEST_F(ReadMotion, WrongFilesSayWhereAndWhy) {
               "x.bvh: line 5: expected the channels of a joint once, found twice");
     EXPECT_EQ(complaint("x.jsonl", "{\"timestampMs\": 0, \"faceBlendshapes\": []}\n"),
               "x.jsonl: expected a face in some sample, found none in any");
+    std::string names = "{\"frames\": [{\"t\": 0, \"blendShapes\": {\"a\": 0";
+    for (int i = 0; i < 150000; ++i) names += ", \"a" + std::to_string(i) + "\": 0";
+    const std::clock_t begin = std::clock();
+    EXPECT_NE(complaint("x.json", names + "}}]}\n").find("at most 10000 keys in an object"),
+              std::string::npos);
+    EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 2);
 }
 
 // Every file is read or refused; none makes the program crash or wait.

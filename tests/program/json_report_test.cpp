@@ -28,7 +28,19 @@ class JsonReport : public testing::Test {
     TemporaryFolder folder_;
 };
 
+const std::string kScript = std::string("'") + RISORIUS_SOURCE_DIR + "/samples/smile/script.json'";
 const std::string kRig = std::string("'") + RISORIUS_SOURCE_DIR + "/rigs/adult/rig.json'";
+
+TEST_F(JsonReport, APathThatTheSystemDoesNotTakeIsWrongInput) {
+    std::filesystem::create_symlink("loop", folder_ / "loop");
+    for (const std::string& name :
+         {std::string(300, 'x'), std::string(5000, 'x'), std::string("loop/x")})
+        for (const std::string& arguments : {"render " + kScript + " --still 0 -o " + name + ".png",
+                                             "figure 8a -o f --from " + name, "check " + name}) {
+            EXPECT_EQ(run_here(arguments).code, 2) << arguments << said();
+            EXPECT_NE(said().find(": expected "), std::string::npos) << said();
+        }
+}
 
 TEST_F(JsonReport, WrongInputIsJsonForEveryCommand) {
     for (const std::string arguments : {"render no.json -o x.mp4",

@@ -44,6 +44,22 @@ TEST_F(Speak, LabelsBecomeOtherLabelsAndCurves) {
     EXPECT_EQ(bytes_of(folder_ / "a.curves.tsv"), bytes_of(folder_ / "b.curves.tsv"));
 }
 
+TEST_F(Speak, AVoiceLeavesNothingBehind) {
+    // It would look for a sound server in these folders.
+    for (const char* name : {"home", "temporary"})
+        std::filesystem::create_directory(folder_ / name);
+    const ShellResult spoken =
+        run_shell("cd '" + folder_.path().string() +
+                  "' && env -u XDG_RUNTIME_DIR HOME=$PWD/home TMPDIR=$PWD/temporary '" +
+                  (std::filesystem::path(RISORIUS_BINARY_DIR) / "risorius").string() +
+                  "' speak ah --program espeak -o ah.TextGrid 2>&1");
+    if (spoken.output.find("none on this machine") != std::string::npos)
+        GTEST_SKIP() << spoken.output;
+    EXPECT_EQ(spoken.code, 0) << spoken.output;
+    for (const char* name : {"home", "temporary"})
+        EXPECT_TRUE(std::filesystem::is_empty(folder_ / name)) << name;
+}
+
 TEST_F(Speak, MistakesAreToldWithTheirPlace) {
     write("bad.ctm", "anna 1 0.15 0.10 AAA\n");
     const auto [code, said] = speak("--labels bad.ctm -o x.TextGrid");

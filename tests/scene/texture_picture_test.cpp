@@ -58,6 +58,11 @@ TEST(Textures, APictureThatIsNotThereIsReportedWhereItIsNamed) {
     EXPECT_EQ(message_of([&] { read_texture(mesh.textures.at(0)); }),
               (folder() / "square.mtl").string() + ":2: expected the picture " +
                   (folder() / "lost.png").string() + ", found no such file");
+    const geom::PolygonMesh lengthy =
+        square_with("newmtl painted\nmap_Kd " + std::string(5000, 'x') + ".png\n");
+    EXPECT_TRUE(message_of([&] {
+                    read_texture(lengthy.textures.at(0));
+                }).starts_with((folder() / "square.mtl").string() + ":2: expected the picture "));
 }
 
 TEST(Textures, APictureThatIsMovedOverTheSurfaceIsLeftOutWithANote) {

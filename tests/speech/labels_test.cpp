@@ -183,6 +183,16 @@ TEST(Labels, WhatIsWrittenIsReadAgain) {
               "visemes 0-19200:X 19200-23218:A 23218-30");
 }
 
+TEST(Utterances, HaveNoMorePhonesAndHoursThanMemoryAndTimeAllow) {
+    const auto complaint = [](const Utterance& utterance) {
+        return message_of([&] { check_utterance(utterance, standard_phones(), "here"); });
+    };
+    EXPECT_EQ(complaint(utterance_of(std::vector<Timed>(99999, {"m", 0.1}))),
+              "here:/phones: expected at most 100000 phones, found 100001");
+    EXPECT_EQ(complaint(utterance_of({{"m", 7 * 3600}}, 1)),
+              "here:/samples: expected at most two hours of sound, found 7.000555555555556 hours");
+}
+
 TEST(Utterances, AreWrittenAndReadWithTheSameSamples) {
     Utterance u = utterance_of({{"m", .0837}, {"ɑ", .1511}, {"p", .0919}, {"u", .12}});
     u.phones[2].length_mark = 2;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 
 #include "speech/curve_helpers.h"
 
@@ -20,6 +21,32 @@ const std::vector<Timed> kForest = {
     {"e", .06}, {"t", .06}, {"s", .08}, {"æ", .07}, {"m", .06}, {"p", .09}, {"u", .09},
     {"r", .05}, {"o", .10}, {"s", .10}, {"o", .07}, {"l", .06}, {"i", .06}, {"s", .09},
     {"i", .06}, {"h", .06}, {"i", .05}, {"l", .06}, {"j", .05}, {"ɑ", .17}};
+
+TEST(Trajectory, OfManyPhonesTakesNoLongerThanItsLength) {
+    constexpr int kPhones = 80000;
+    constexpr double kPhone_s = 0.001;
+    ArticulationTargets targets{.start_s = 0,
+                                .end_s = kPhones * kPhone_s,
+                                .windows = {},
+                                .bounds = {},
+                                .closures = {},
+                                .contacts = {}};
+    for (int i = 0; i < kPhones; ++i) {
+        const double from_s = i * kPhone_s, to_s = from_s + kPhone_s / 2;
+        targets.windows.push_back({.parameter = Parameter::kProtrusion,
+                                   .from_s = from_s,
+                                   .to_s = to_s,
+                                   .target = i % 3 * 1.0,
+                                   .tau_s = 0.03,
+                                   .weak = i % 2 == 1});
+        targets.closures.push_back({i, i, from_s, to_s});
+        targets.contacts.push_back({from_s, to_s, 1, i});
+    }
+    const std::clock_t begin = std::clock();
+    const ArticulationCurves curves = curves_of(targets);
+    EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 2);
+    EXPECT_GT(curves.labiodental.minCoeff(), 0.99);
+}
 
 TEST(Trajectory, EveryClosureIsClosed) {
     const Utterance utterance = utterance_of(kForest);

@@ -201,6 +201,10 @@ TEST_F(EmgSource, WhatCannotBeReadIsRefusedByPlace) {
     EXPECT_EQ(emg(R"("rate_hz": 1000, "envelope": true, "maximum": {"ZYG": -1})"),
               "script.json:/emg/maximum/ZYG: expected a maximum above the envelope at rest, 0, "
               "found -1");
+    EXPECT_EQ(
+        emg(R"("rate_hz": 900, "notch_hz": 1e-12, "band_pass_hz": [20, 400], "maximum": {"ZYG": 1})"),
+        "script.json:/emg: expected filters and values whose envelope is finite, found others "
+        "(a frequency near 0?)");
     EXPECT_NE(emg(R"("rate_hz": 1000, "lowpass_hz": 6)").find("did you mean \"low_pass_hz\""),
               std::string::npos);
     const auto of = [](const std::string& assigned) {

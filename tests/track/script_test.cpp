@@ -54,6 +54,27 @@ TEST(Script, WithOnlyWhatIsNeededGetsTheDefaults) {
     EXPECT_TRUE(script.channels.empty() && script.expressions.empty() && script.blinks.empty());
 }
 
+TEST(Script, HasNoMoreEventsAndPullsThanMemoryAndTimeAllow) {
+    const auto failure_with = [](const char* key, std::size_t count, const char* item) {
+        Json json = minimal();
+        json[key] = Json(count, Json::parse(item));
+        try {
+            read(json);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("none");
+    };
+    constexpr const char* kBlink = R"({"blink": {}, "start_s": 0.1})";
+    EXPECT_EQ(failure_with("events", 10000, kBlink), "none");
+    EXPECT_EQ(failure_with("events", 10001, kBlink),
+              "script.json:/events: expected at most 10000 events, found 10001");
+    EXPECT_EQ(failure_with("events", 101, R"({"idle": {}})"),
+              "script.json:/events: expected at most 100 periods of idle motion, found 101");
+    EXPECT_EQ(failure_with("pulls", 1001, R"({"vertex": 1, "keys_mm": [[0, [0, 0, 0]]]})"),
+              "script.json:/pulls: expected at most 1000 pulls, found 1001");
+}
+
 TEST(Script, NumberOfFramesIsRounded) {
     EXPECT_EQ(frame_count(2.0, 60), 120);
     EXPECT_EQ(frame_count(0.1, 24), 2);   // 2.4

@@ -10,9 +10,11 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -29,17 +31,26 @@ Rigid::MatrixType matrix4(const aiMatrix4x4& m) {
     return out;
 }
 
+/// For messages. Numbers of files have been floats.
+std::string rounded(double number) {
+    std::ostringstream out;
+    out << number;
+    return out.str();
+}
+
 /// The unit that the file states, in metres. FBX states centimetres per unit, and assimp does not apply it to positions.
-double stated_metres_per_unit(const aiScene& scene) {
+double stated_metres_per_unit(const aiScene& scene, const std::string& name) {
     constexpr double kMetresPerCentimetre = 0.01;
     if (!scene.mMetaData) return 1.0;
-    double as_double = 0.0;
-    float as_float = 0.0F;
-    if (scene.mMetaData->Get("UnitScaleFactor", as_double) && as_double > 0)
-        return as_double * kMetresPerCentimetre;
-    if (scene.mMetaData->Get("UnitScaleFactor", as_float) && as_float > 0)
-        return static_cast<double>(as_float) * kMetresPerCentimetre;
-    return 1.0;
+    double centimetres = 0.0;
+    if (!scene.mMetaData->Get("UnitScaleFactor", centimetres)) {
+        float single = 0.0F;
+        if (!scene.mMetaData->Get("UnitScaleFactor", single)) return 1.0;
+        centimetres = static_cast<double>(single);
+    }
+    if (!(centimetres > 0) || !std::isfinite(centimetres))
+        throw NoMesh({name, "a unit (UnitScaleFactor) above 0 cm", rounded(centimetres)});
+    return centimetres * kMetresPerCentimetre;
 }
 
 /// Opens regular files to read, and nothing else.
@@ -260,7 +271,12 @@ geom::PolygonMesh read_scene(const std::filesystem::path& file) {
         throw NoMesh({file.string(), "a mesh that assimp can read", importer.GetErrorString()});
     geom::PolygonMesh mesh = SceneReader(*scene, file.string(), ending == ".ply").read();
     if (mesh.face_count() == 0) throw NoMesh({file.string(), "faces", "none"});
-    const double unit_m = stated_metres_per_unit(*scene);
+    // assimp multiplies the first node by the unit of COLLADA.
+    const double volume =
+        matrix4(scene->mRootNode->mTransformation).topLeftCorner<3, 3>().determinant();
+    if (ending == ".dae" && !(volume > 0))
+        throw NoMesh({file.string(), "a unit (meter) above 0", rounded(std::cbrt(volume))});
+    const double unit_m = stated_metres_per_unit(*scene, file.string());
     mesh.positions *= unit_m;
     if (!mesh.in_file_order) geom::part_sheets(mesh);
     // These state a unit and an axis, which assimp puts into the first node.

@@ -216,7 +216,11 @@ int run(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return say(kFailed, "not enough memory");
     } catch (const std::filesystem::filesystem_error& error) {
-        return say(kFailed, readable_text(error.path1().string() + ": " + error.code().message()));
+        const std::string path = error.path1().string(), reason = error.code().message();
+        if (error.code() == std::errc::filename_too_long ||
+            error.code() == std::errc::too_many_symbolic_link_levels)
+            return say(kWrongInput, Error(path, "a path that the system takes", reason).what());
+        return say(kFailed, readable_text(path + ": " + reason));
     } catch (const std::exception& error) {
         return say(kFailed, readable_text(error.what()));
     }

@@ -277,9 +277,16 @@ std::vector<std::string> JsonCursor::keys() const {
     return out;
 }
 
+/// A cursor takes half a kilobyte, with its path and place.
+static constexpr std::size_t kMostItems = 1000000;
+
 std::vector<JsonCursor> JsonCursor::items() const {
     if (!value_->is_array()) fail("an array");
+    if (value_->size() > kMostItems)
+        fail("an array of at most " + std::to_string(kMostItems),
+             "one of " + std::to_string(value_->size()));
     std::vector<JsonCursor> out;
+    out.reserve(value_->size());
     for (std::size_t i = 0; i < value_->size(); ++i)
         out.push_back(
             JsonCursor(document_, file_, pointer_ + "/" + std::to_string(i), &(*value_)[i]));
@@ -335,7 +342,10 @@ Vec3 JsonCursor::vec3() const {
 }
 
 std::filesystem::path JsonCursor::path() const {
-    const std::filesystem::path written = string();
+    const std::string text = string();
+    // The system would take what stands before it for the name of another file.
+    if (text.find('\0') != std::string::npos) fail("a path without a zero byte");
+    const std::filesystem::path written = text;
     return written.is_absolute() ? written : (folder() / written).lexically_normal();
 }
 

@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/media/mono_sound.h"
 
+#include <string>
+
+#include "risorius/core/error.h"
 #include "risorius/media/detail/sound.h"
 #include "risorius/media/wav_file.h"
 
 namespace risorius::media {
 
-MonoSound read_mono_sound(const std::filesystem::path& file) {
+int sound_rate_hz(const std::filesystem::path& file) { return open_recording(file).rate_hz; }
+
+MonoSound read_mono_sound(const std::filesystem::path& file, std::int64_t most) {
     const Recording recording = open_recording(file);
+    if (recording.length() > most)
+        throw Error(file.string(), "at most " + std::to_string(most) + " samples in each channel",
+                    std::to_string(recording.length()));
     MonoSound out;
     out.rate_hz = recording.rate_hz;
     out.samples.reserve(static_cast<std::size_t>(recording.length()));

@@ -2,11 +2,34 @@
 #include "risorius/motion/json_results.h"
 
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "risorius/core/json_text.h"
 #include "risorius/core/text_lines.h"
 
 namespace risorius::motion {
+
+namespace {
+
+/// Whether all brackets that are opened are closed again. Without a parser, which would compare each key with all others.
+bool is_whole(std::string_view line) {
+    int depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const char c = line[i];
+        if (in_string && c == '\\')
+            ++i;
+        else if (c == '"')
+            in_string = !in_string;
+        else if (!in_string && (c == '{' || c == '['))
+            ++depth;
+        else if (!in_string && (c == '}' || c == ']'))
+            --depth;
+    }
+    return depth == 0 && !in_string;
+}
+
+}  // namespace
 
 std::optional<JsonCursor> any_key_of(const JsonCursor& json, const std::vector<std::string>& keys) {
     for (const std::string& key : keys)
@@ -23,8 +46,8 @@ std::vector<JsonCursor> json_results(const std::filesystem::path& file, const Fi
     std::string_view line;
     while (line.find_first_not_of(" \t") == std::string_view::npos && lines.next())
         line = lines.line();
-    const bool by_line = first != std::string::npos && text[first] == '{' &&
-                         json_or_null(line).is_object() && lines.next();
+    const bool by_line =
+        first != std::string::npos && text[first] == '{' && is_whole(line) && lines.next();
     if (by_line) {
         for (TextLines each(text); each.next();)
             if (each.line().find_first_not_of(" \t") != std::string_view::npos)

@@ -8,7 +8,8 @@ namespace risorius::scene {
 
 Image read_texture(const geom::Texture& texture) {
     if (!texture.embedded.empty()) return media::read_picture(texture.embedded, texture.named_in);
-    if (!std::filesystem::exists(texture.file))
+    std::error_code ignored;  // a name that is too long, or a loop of links
+    if (!std::filesystem::exists(texture.file, ignored))
         throw Error(texture.named_in, "the picture " + texture.file.string(), "no such file");
     return media::read_picture(texture.file);
 }

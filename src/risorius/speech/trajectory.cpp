@@ -28,16 +28,18 @@ long index_to(double t_s, double start_s) {
 /// ones between.
 void stay_in_range(const std::vector<Window>& windows, double start_s, solve::CurveQuadratic& q) {
     const long n = q.b.size();
-    std::vector<const Window*> strong;
-    for (const Window& window : windows)
-        if (!window.weak) strong.push_back(&window);
+    std::vector<const Window*> strong, weak;
+    for (const Window& window : windows) (window.weak ? weak : strong).push_back(&window);
+    const auto earlier = [](const Window* a, const Window* b) { return a->from_s < b->from_s; };
+    std::stable_sort(weak.begin(), weak.end(), earlier);
     for (std::size_t k = 0; k + 1 < strong.size(); ++k) {
         const Window &one = *strong[k], &two = *strong[k + 1];
         double low = std::min(one.target, two.target), high = std::max(one.target, two.target);
-        for (const Window& window : windows)
-            if (window.weak && window.from_s >= one.from_s && window.to_s <= two.to_s) {
-                low = std::min(low, window.target);
-                high = std::max(high, window.target);
+        for (auto w = std::lower_bound(weak.begin(), weak.end(), &one, earlier);
+             w != weak.end() && (*w)->from_s <= two.to_s; ++w)
+            if ((*w)->to_s <= two.to_s) {
+                low = std::min(low, (*w)->target);
+                high = std::max(high, (*w)->target);
             }
         const long from = std::max(0L, index_from(one.to_s, start_s)),
                    to = std::min(n - 1, index_to(two.from_s, start_s));
@@ -137,10 +139,18 @@ ArticulationCurves curves_of(const ArticulationTargets& targets) {
         out.converged = out.converged && solution.converged;
         out.values[p] = std::move(solution.x);
     }
+    // The grid points of a time, and one more at each end.
+    const auto first_near = [&](double t_s) {
+        return std::clamp(index_from(t_s, out.start_s) - 1, 0L, n);
+    };
+    const auto end_near = [&](double t_s) {
+        return std::clamp(index_to(t_s, out.start_s) + 2, 0L, n);
+    };
     out.labiodental = Eigen::VectorXd::Zero(n);
     out.bounded = Eigen::VectorXd::Zero(n);
     for (const LabiodentalContact& contact : targets.contacts)
-        for (long i = 0; i < n; ++i) {
+        for (long i = first_near(contact.from_s - kRamp_s), end = end_near(contact.to_s + kRamp_s);
+             i < end; ++i) {
             const double t = out.time_s(i);
             const double away = std::max({0.0, contact.from_s - t, t - contact.to_s}) / kRamp_s;
             if (away >= 1) continue;
@@ -149,7 +159,8 @@ ArticulationCurves curves_of(const ArticulationTargets& targets) {
             if (away == 0) out.bounded[i] = 1;
         }
     for (const LipClosure& closure : targets.closures)
-        for (long i = 0; i < n; ++i)
+        for (long i = first_near(closure.closure_s), end = end_near(closure.release_s); i < end;
+             ++i)
             if (out.time_s(i) >= closure.closure_s && out.time_s(i) <= closure.release_s)
                 out.bounded[i] = 1;
     return out;

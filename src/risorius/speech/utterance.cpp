@@ -72,6 +72,13 @@ int Utterance::word_at(std::int64_t sample) const {
 void check_utterance(const Utterance& utterance, const PhoneTable& table,
                      const std::string& place) {
     if (utterance.phones.empty()) throw Error(place + ":/phones", "at least one phone", "none");
+    if (utterance.phones.size() > kMostPhones)
+        throw Error(place + ":/phones", "at most " + std::to_string(kMostPhones) + " phones",
+                    std::to_string(utterance.phones.size()));
+    const double hours = utterance.seconds(utterance.samples) / 3600;
+    if (hours > kMostHours)
+        throw Error(place + ":/samples", "at most two hours of sound",
+                    format_number(hours) + " hours");
     std::int64_t before = utterance.phones.front().start;
     for (std::size_t i = 0; i < utterance.phones.size(); ++i) {
         const Phone& phone = utterance.phones[i];

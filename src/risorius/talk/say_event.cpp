@@ -171,6 +171,9 @@ std::filesystem::path kept_sound(const media::MonoSound& sound, PlannedSpeech& o
     return file;
 }
 
+/// Noise of 15 minutes at 22 kHz takes some seconds and half a gigabyte.
+constexpr std::size_t kMostNoisySamples = 20'000'000;
+
 /// The sound of an event, its noise and its place in the script.
 void plan_sound(const JsonCursor& say, const SayEvent& event, const SpokenResult& spoken,
                 PlannedSpeech& out) {
@@ -187,6 +190,10 @@ void plan_sound(const JsonCursor& say, const SayEvent& event, const SpokenResult
             say.at("noise").fail(
                 "a sound of " + std::to_string(utterance.rate_hz) + " Hz, the rate of what is said",
                 std::to_string(clean.rate_hz));
+        if (clean.samples.size() > kMostNoisySamples)
+            say.at("noise").fail(
+                "a sound of at most " + std::to_string(kMostNoisySamples) + " samples",
+                std::to_string(clean.samples.size()));
         NoisySpeech noisy = with_noise(clean.samples, utterance, *event.snr_db, event.noise_seed);
         before = noisy.before;
         if (noisy.gain < 1)
@@ -200,7 +207,7 @@ void plan_sound(const JsonCursor& say, const SayEvent& event, const SpokenResult
     out.sound_file = sound;
     std::optional<ReadingFormerOutput> own_file;
     if (out.keeps) own_file.emplace();
-    const int rate_hz = media::read_mono_sound(sound).rate_hz;
+    const int rate_hz = media::sound_rate_hz(sound);
     out.sound_offset_samples =
         std::llround(event.start_s * rate_hz) + event.sound_offset_samples - before;
 }
@@ -213,11 +220,16 @@ PlannedSpeech plan_speech(const std::vector<JsonCursor>& says, const track::Scri
     if (says.empty()) return out;
     const speech::PhoneTable table = speech::PhoneTable::standard();
     std::optional<RigVoice> voice;
+    std::size_t phones = 0;
     for (const JsonCursor& say : says) {
         SayEvent event = read_say(say, header.duration_s);
         SpokenResult spoken =
             event.timed_phones.empty() ? read_spoken(event.input, table) : of_timed(event, table);
         const speech::Utterance& utterance = spoken.spoken.utterance;
+        phones += utterance.phones.size();
+        if (phones > speech::kMostPhones)
+            say.fail("at most " + std::to_string(speech::kMostPhones) + " phones in all events",
+                     std::to_string(phones));
         if (event.burst_s) {
             const std::optional<double> burst_s = speech::first_burst_s(utterance, table);
             if (!burst_s) say.at("burst_s").fail("a stop or nasal in what is said", "none");

@@ -308,6 +308,15 @@ class Reader {
     const Expressions& expressions_;
 };
 
+// In a render each event of an expression takes some 40 kB of memory, and each step of the simulation asks every event and pull.
+constexpr std::size_t kMostEvents = 10000, kMostIdleEvents = 100, kMostPulls = 1000;
+
+void require_at_most(std::size_t most, const char* what, const JsonCursor& list) {
+    const std::size_t count = list.items().size();
+    if (count > most)
+        list.fail("at most " + std::to_string(most) + " " + what, std::to_string(count));
+}
+
 }  // namespace
 
 ScriptDescription read_script(const std::filesystem::path& file, const ChannelTable& channels,
@@ -364,7 +373,10 @@ ScriptDescription read_script(const JsonCursor& json, const ChannelTable& channe
             if (const auto v = late->find(kSideNames[side]))
                 script.late_s[side] = v->number({0, 10});
     }
-    if (const auto pulls = json.find("pulls")) script.pulls = read_pulls(*pulls, kLongest_s);
+    if (const auto pulls = json.find("pulls")) {
+        require_at_most(kMostPulls, "pulls", *pulls);
+        script.pulls = read_pulls(*pulls, kLongest_s);
+    }
     const Reader reader(channels, facs, expressions);
     if (const auto table = json.find("channels"))
         for (const std::string& name : table->keys())
@@ -377,6 +389,7 @@ ScriptDescription read_script(const JsonCursor& json, const ChannelTable& channe
     }
     if (const auto events = json.find("events")) {
         std::vector<JsonCursor> idle;
+        require_at_most(kMostEvents, "events", *events);
         for (const JsonCursor& event : events->items()) {
             const int kinds =
                 event.has("expression") + event.has("blink") + event.has("idle") + event.has("say");
@@ -396,6 +409,9 @@ ScriptDescription read_script(const JsonCursor& json, const ChannelTable& channe
             else
                 idle.push_back(event);
         }
+        if (idle.size() > kMostIdleEvents)
+            events->fail("at most " + std::to_string(kMostIdleEvents) + " periods of idle motion",
+                         std::to_string(idle.size()));
         for (const JsonCursor& event : idle) {
             script.idle.push_back(
                 reader.idle(event, script.header, static_cast<int>(script.idle.size())));

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -103,6 +104,8 @@ int main(int argc, char** argv) {
     } catch (const nlohmann::json::exception& error) {
         return fail(std::string(argv[1]) + ": " + error.what());
     }
+    // Nothing is played. Without this, the library would look for a sound server, and leave a folder of it behind.
+    ::setenv("PULSE_SERVER", "", 1);
     constexpr int kPhonemeEvents = 1, kIpaNames = 2, kDoNotExit = 0x8000, kIpa = 2;
     const int rate_hz = espeak_Initialize(AUDIO_OUTPUT_SYNCHRONOUS, 0, nullptr,
                                           kPhonemeEvents | kIpaNames | kDoNotExit);

@@ -158,6 +158,9 @@ EmgTracks read_emg(const JsonCursor& json, const ChannelTable& channels, double 
                 out.notes.push_back(std::move(note));
         std::vector<double> samples =
             signal::emg_envelope(std::move(bridged.samples), rate_hz, filters);
+        if (!std::all_of(samples.begin(), samples.end(), [](double v) { return std::isfinite(v); }))
+            json.fail("filters and values whose envelope is finite",
+                      "others (a frequency near 0?)");
 
         const double rest =
             rest_percentile > 0 ? signal::percentile(samples, rest_percentile) : 0.0;
