@@ -175,16 +175,16 @@ TEST(SolveUnits, ASmileOfAnotherPersonBeforeACameraIsNamed) {
     std::map<std::string, double> highest;
     std::string listed;
     for (const UnitCurve& curve : found.curves) {
-        listed += curve.channel + " ";
+        listed += curve.channel + " " + std::to_string(curve.keys.size()) + " ";
         for (const track::Key& key : curve.keys)
             highest[curve.channel] = std::max(highest[curve.channel], key.value);
     }
     SCOPED_TRACE(listed);
-    // The noise, 0.15 mm, is explained by small units of the eyes and brows.
-    EXPECT_LE(found.curves.size(), 10u);
+    // The noise, 0.15 mm in each axis of each frame and of the neutral face (0.37 mm of a landmark), is left.
+    EXPECT_LE(found.curves.size(), 8u);
     EXPECT_NEAR(highest["AU12"], 0.72, 0.1);
     EXPECT_NEAR(highest["AU6"], 0.54, 0.2);
-    EXPECT_LT(found.rms_m(), 0.5e-3);
+    EXPECT_LT(found.rms_m(), 0.55e-3);
 }
 
 }  // namespace

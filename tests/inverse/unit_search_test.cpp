@@ -74,6 +74,21 @@ TEST(JointKeys, ACurveThatMovesTheFaceLittleHasFewKeys) {
     EXPECT_GE(keys[0].size(), 3u);
 }
 
+TEST(JointKeys, TellWhatACurveIsWorth) {
+    // Of two curves that the face hardly tells apart, one makes up for the other.
+    const std::vector<FrameCost> frames = costs(bumps(), 1, 1e-3), apart = costs(bumps(), 0, 1);
+    const Eigen::Vector2d second(0, 1), difference(1, -1);
+    double alone = 0;
+    for (long t = 0; t < kFrames; ++t) alone += 0.5 * std::pow(bumps()(1, t), 2);
+    EXPECT_NEAR(cost_of_zero(apart, bumps(), second), alone, 1e-9);
+    EXPECT_LT(cost_of_zero(frames, bumps(), second), 3e-3 * alone);
+    // As much as a search without the curve finds
+    double without = -cost_of(frames, bumps());
+    for (const FrameCost& cost : frames) without -= 0.5 * cost.b[0] * cost.b[0] / cost.A(0, 0);
+    EXPECT_NEAR(cost_of_zero(frames, bumps(), second), without, 1e-9);
+    EXPECT_GT(cost_of_zero(frames, bumps(), difference), 0);
+}
+
 TEST(JointKeys, StayWithinTheirRange) {
     const std::vector<double> at = times();
     Eigen::MatrixXd beyond = bumps();

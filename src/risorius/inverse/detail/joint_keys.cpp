@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/inverse/detail/joint_keys.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -208,6 +209,15 @@ Eigen::MatrixXd values_of_keys(const std::vector<Keys>& keys, const std::vector<
     Eigen::MatrixXd out(static_cast<long>(keys.size()), static_cast<long>(times_s.size()));
     for (std::size_t c = 0; c < keys.size(); ++c)
         out.row(static_cast<long>(c)) = smooth_values(keys[c], times_s);
+    return out;
+}
+
+double cost_of_zero(const std::vector<FrameCost>& frames, const Eigen::MatrixXd& values,
+                    const Eigen::VectorXd& sum) {
+    double out = 0;
+    for (std::size_t t = 0; t < frames.size(); ++t)
+        out += 0.5 * std::pow(sum.dot(values.col(static_cast<long>(t))), 2) /
+               sum.dot(frames[t].A.llt().solve(sum));
     return out;
 }
 

@@ -25,6 +25,11 @@ struct FrameCost {
     double of(const Eigen::VectorXd& v) const { return 0.5 * v.dot(A * v) - b.dot(v); }
 };
 
+/// How much the least cost of all frames rises when a sum of the curves, each times a number, has to be 0: (s . v)^2 / (2 s . A^-1 s).
+/// `values`: those of the least cost, C x frames.
+double cost_of_zero(const std::vector<FrameCost>& frames, const Eigen::MatrixXd& values,
+                    const Eigen::VectorXd& sum);
+
 /// The keys of each of C curves. `values`: where the search begins, C x frames; `allowed`: how much the cost may rise above its least.
 std::vector<std::vector<track::Key>> joint_keys(const std::vector<double>& times_s,
                                                 const std::vector<FrameCost>& frames,

@@ -28,6 +28,9 @@ constexpr std::size_t kRivals = 16;
 constexpr int kFramesForOne = 10, kLeastFrames = 3;  // for one that is simulated; at least
 constexpr int kMostTops = 4;                         // frames that decide which units there are
 constexpr double kExplained = 0.15;                  // a frame of which more is left decides, too
+// A curve has to explain this multiple of the variance of the noise in the mean of the frames. Any curve explains noise once, and the best of
+// forty curves explains that of the neutral face, which is the same in all frames, seven times.
+constexpr double kOverNoise = 5;
 
 class UnitSolver {
   public:
@@ -313,7 +316,14 @@ class UnitSolver {
                 else
                     weight_.row(row).setZero();
             }
+        const double noise = cost_over_noise();
+        leave_out_noise(noise);
         const std::vector<FrameCost> cost = costs();
+        const Eigen::MatrixXd values = channel_values();
+        const auto unit = [&](std::size_t c) {
+            return Eigen::VectorXd(Eigen::VectorXd::Unit(values.rows(), static_cast<long>(c)));
+        };
+        const double same = std::max(squares_of(options_.same_sides_m), noise);
         std::vector<Channel> together;
         for (std::size_t c = 0; c < channels_.size(); ++c) {
             const auto row = static_cast<std::size_t>(channels_[c].rows[0]);
@@ -323,8 +333,7 @@ class UnitSolver {
             const bool next_is_other =
                 both && c + 1 < channels_.size() &&
                 channels_[c + 1].rows[0] == static_cast<long>(both->sources[1]);
-            if (next_is_other &&
-                cost_of_sharing(cost, static_cast<long>(c)) < squares_of(options_.same_sides_m)) {
+            if (next_is_other && cost_of_zero(cost, values, unit(c) - unit(c + 1)) < same) {
                 together.push_back({both->name, {channels_[c].rows[0], channels_[c + 1].rows[0]}});
                 ++c;
             } else {
@@ -337,17 +346,33 @@ class UnitSolver {
     double squares_of(double rms_m) const {
         return 0.5 * rms_m * rms_m * points_ / size_ * static_cast<double>(target_.cols());
     }
-    /// How much the cost rises when a channel and the next one have to be equal.
-    double cost_of_sharing(const std::vector<FrameCost>& costs, long channel) const {
-        double out = 0;
-        for (std::size_t t = 0; t < costs.size(); ++t) {
-            Eigen::VectorXd apart = Eigen::VectorXd::Zero(costs[t].A.rows());
-            apart[channel] = 1;
-            apart[channel + 1] = -1;
-            const double now = apart.dot(in_channels(weight_.col(static_cast<long>(t))));
-            out += 0.5 * now * now / apart.dot(costs[t].A.llt().solve(apart));
+    /// What a curve has to save: a multiple of the variance of a row that no curve explains.
+    double cost_over_noise() const {
+        double squares = 0, rows = 0;
+        for (long t = 0; t < target_.cols(); ++t) {
+            squares += (seen(t, model_.moved(weight_.col(t))) - target_.col(t)).squaredNorm();
+            rows += seen(t, root_).squaredNorm() - static_cast<double>(channels_.size());
         }
-        return out;
+        const auto frames = static_cast<double>(target_.cols());
+        return rows > 0 ? 0.5 * kOverNoise * squares / rows / size_ * frames : 0;
+    }
+    /// Leaves out channels that explain no more than noise is explained by chance, the least useful one first.
+    void leave_out_noise(double noise) {
+        while (!channels_.empty()) {
+            const std::vector<FrameCost> cost = costs();
+            const auto count = static_cast<long>(channels_.size());
+            Eigen::VectorXd loss(count);
+            for (long c = 0; c < count; ++c)
+                loss[c] = cost_of_zero(cost, channel_values(), Eigen::VectorXd::Unit(count, c));
+            long least = 0;
+            if (!(loss.minCoeff(&least) < noise)) break;
+            for (const long row : channels_[static_cast<std::size_t>(least)].rows) {
+                active_[static_cast<std::size_t>(row)] = false;
+                weight_.row(row).setZero();
+            }
+            channels_.erase(channels_.begin() + least);
+            fit_frames();
+        }
     }
 
     Eigen::VectorXd in_channels(const Eigen::VectorXd& weight) const {
@@ -357,6 +382,12 @@ class UnitSolver {
         return out;
     }
 
+    /// Channels x frames.
+    Eigen::MatrixXd channel_values() const {
+        Eigen::MatrixXd out(static_cast<long>(channels_.size()), target_.cols());
+        for (long t = 0; t < target_.cols(); ++t) out.col(t) = in_channels(weight_.col(t));
+        return out;
+    }
     /// The cost of the channels in every frame near the weights of now.
     std::vector<FrameCost> costs() const {
         std::vector<FrameCost> out;
@@ -377,9 +408,8 @@ class UnitSolver {
 
     void find_keys() {
         for (bool again = true; again && !channels_.empty();) {
-            Eigen::MatrixXd values(static_cast<long>(channels_.size()), target_.cols());
-            for (long t = 0; t < target_.cols(); ++t) values.col(t) = in_channels(weight_.col(t));
-            keys_ = joint_keys(times_s_, costs(), values, squares_of(options_.key_error_m));
+            keys_ =
+                joint_keys(times_s_, costs(), channel_values(), squares_of(options_.key_error_m));
             again = leave_out_idle();
             use_keys();
         }
