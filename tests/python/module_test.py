@@ -100,6 +100,24 @@ class FaceTest(unittest.TestCase):
         difference = (ends[1] - ends[0]) / (2 * step)
         self.assertLess(np.abs(slope[0] - difference).max(), 0.1 * np.abs(difference).max())
 
+    def test_arrays_of_vertices_follow_the_steps_while_somebody_holds_them(self):
+        drive = {"zygomaticus_major": 0.6}
+        self.face.step(drive, 5)
+        held = self.face.vertices
+        corner = int(np.argmin(np.linalg.norm(self.face.rest_vertices - self.face.landmark("ch_l"), axis=1)))
+        part = held[corner : corner + 1, 1]
+        before = held.copy()
+        self.face.step(drive)
+        self.assertFalse(np.array_equal(held, before))
+        self.assertTrue(np.array_equal(part, self.face.vertices[corner : corner + 1, 1]))
+        del held
+        before = part.copy()
+        self.face.step(drive, 20)
+        self.assertFalse(np.array_equal(part, before), "a part of the array holds it as well")
+        del part
+        self.face.step(drive)
+        self.assertTrue(np.isfinite(self.face.vertices).all())
+
     def test_rig_gradient_is_the_slope_by_numbers_of_the_rig(self):
         # L: the height of the left brow; slopes by faces of rigs with other numbers
         drive = {"frontalis_medial": 0.3}
