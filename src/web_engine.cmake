@@ -55,7 +55,8 @@ endforeach()
 
 # What a page needs of each module: all of it, or the files that are named.
 set(risorius_web_modules core geom signal track io solve tissue muscle rig face render media scene view)
-set(risorius_web_files_io read_mesh.cpp detail/obj_reader.cpp detail/obj_textures.cpp detail/picture_place.cpp wasm/no_import.cpp)
+set(risorius_web_files_io read_mesh.cpp detail/obj_reader.cpp detail/obj_textures.cpp detail/picture_place.cpp wasm/no_import.cpp
+    wasm/no_tet_meshes.cpp)
 set(risorius_web_files_render value_colour.cpp detail/cie_colour.cpp)
 set(risorius_web_files_scene rig_files.cpp scene_from_rig.cpp texture_picture.cpp visualization.cpp)
 set(risorius_web_files_media wasm/no_pictures.cpp)

@@ -137,11 +137,15 @@ class PythonFace {
     face::Face& face() { return face_; }
     const track::ChannelTable& channels() const { return channels_; }
     Eigen::Index vertex_count() { return face_.head().vertices.rows(); }
-    /// From the first call on, every step brings them up to date.
     const Points& vertices() {
         pose();
-        is_watched_ = true;
         return vertices_;
+    }
+    /// While somebody keeps what this returns, every step brings the vertices up to date.
+    std::shared_ptr<const char> watch() {
+        std::shared_ptr<const char> watcher = watcher_.lock();
+        if (!watcher) watcher_ = watcher = std::make_shared<const char>('\0');
+        return watcher;
     }
     const std::vector<std::string>& columns() const { return columns_; }
 
@@ -155,7 +159,7 @@ class PythonFace {
     // A pose takes half the time of a step, so it is made when somebody looks.
     void moved() {
         is_posed_ = false;
-        if (is_watched_) pose();
+        if (!watcher_.expired()) pose();
     }
     const face::FacePose& pose() {
         if (!is_posed_) keep(face_.pose());
@@ -224,7 +228,8 @@ class PythonFace {
     track::Drive drive_;
     face::FacePose pose_;
     Points vertices_;
-    bool is_posed_ = false, is_watched_ = false;
+    bool is_posed_ = false;
+    std::weak_ptr<const char> watcher_;
     std::optional<render::Scene> scene_;
     render::ViewOptions options_{};
     std::unique_ptr<render::OffscreenView> view_;
@@ -330,6 +335,16 @@ void add_names(py::class_<PythonFace>& face) {
             "Names of the landmarks.");
 }
 
+/// What an array of the vertices refers to: its face, which brings it up to date as long as there is such an array.
+py::capsule watched(const py::object& self) {
+    struct Watched {
+        py::object face;
+        std::shared_ptr<const char> watcher;
+    };
+    return {new Watched{self, self.cast<PythonFace&>().watch()},
+            [](void* of) { delete static_cast<Watched*>(of); }};
+}
+
 // Numbers of the face. Arrays look at its memory unless their text says that they are copies.
 void add_arrays(py::class_<PythonFace>& face) {
     const auto points = [](const Points& of, const py::object& owner) {
@@ -338,7 +353,7 @@ void add_arrays(py::class_<PythonFace>& face) {
     face.def_property_readonly(
             "vertices",
             [points](const py::object& self) {
-                return points(self.cast<PythonFace&>().vertices(), self);
+                return points(self.cast<PythonFace&>().vertices(), watched(self));
             },
             "Vertices of the mesh, V x 3, m, world frame. The next step or equilibrium overwrites "
             "the array.")

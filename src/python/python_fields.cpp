@@ -105,7 +105,6 @@ Eigen::VectorXd rig_gradient(face::Face& face, const std::filesystem::path& rig,
     const Json json = rig::resolved_rig(rig);
     const face::Statics statics = face.statics();
     const Points nodes = statics.nodes();
-    const Points adjoint = statics.solve(statics.pull_back(vertex_gradient));
     Eigen::VectorXd out(static_cast<Eigen::Index>(paths.size()));
     for (std::size_t p = 0; p < paths.size(); ++p) {
         const std::string& path = paths[p];
@@ -116,14 +115,17 @@ Eigen::VectorXd rig_gradient(face::Face& face, const std::filesystem::path& rig,
                 "moduli of \"anatomy/solids/\"",
                 "\"" + path + "\"");
         const std::vector<std::string> numbers = study::rig_numbers(json, path, "rig_gradient");
-        double slope = 0;
-        for (const double side : {-1.0, 1.0}) {
-            face::Variant variant(face,
-                                  scaled(json, numbers, std::exp(side * kStep), rig.string()));
-            slope +=
-                side * adjoint.cwiseProduct(variant.gradient(nodes, drive.excitation, drive)).sum();
-        }
-        out[static_cast<Eigen::Index>(p)] = -slope / (2 * kStep);
+        const auto variant_at = [&](double side) {
+            return face::Variant(face, scaled(json, numbers, std::exp(side * kStep), rig.string()));
+        };
+        face::Variant less = variant_at(-1), more = variant_at(1);
+        const Points moved = statics.solve(less.gradient(nodes, drive.excitation, drive) -
+                                           more.gradient(nodes, drive.excitation, drive)) /
+                             2;  // in a step of kStep
+        const Points change = more.vertices(nodes + moved, drive.excitation, drive) -
+                              less.vertices(nodes - moved, drive.excitation, drive);
+        out[static_cast<Eigen::Index>(p)] =
+            vertex_gradient.cwiseProduct(change).sum() / (2 * kStep);
     }
     return out;
 }

@@ -20,10 +20,10 @@ pybind11::dict fields_dict(face::Face& face);
 
 /// Returns dL/d(ln p) for each path of numbers of the rig (study/rig_numbers.h), in the equilibrium of the face with `drive`:
 ///
-///   dL/dp = - (H^-1 b) . dg/dp,   b = dL/dx from dL/dv, V x 3        face/statics.h
+///   dL/dp = dL/dv . (dv/dx dx/dp + dv/dp),   dx/dp = - H^-1 dg/dp        face/statics.h
 ///
-/// dg/d(ln p) is a difference of the gradients of two rigs with p e^(-h) and p e^h at the same nodes. Contact is left out, and what
-/// p does to the fine layer of skin over the tissue: numbers of the upper tissue and the skin act on it beside the nodes. Throws Error for a
+/// Derivatives are differences of two rigs with p e^(-h) and p e^h: of g at the same nodes x, and of the vertices v with the skin over the
+/// nodes. Contact is left out. Throws Error for a
 /// path without numbers, and for numbers of the mesh of the tissue, which needs other nodes.
 Eigen::VectorXd rig_gradient(face::Face& face, const std::filesystem::path& rig,
                              const track::Drive& drive, const Points& vertex_gradient,

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
+#include <utility>
 
 #include "message_of.h"
 #include "risorius/io/detail/tet_mesh_builder.h"
@@ -320,6 +321,37 @@ TEST_F(TetMeshes, HaveTheFibresOfTheirFile) {
     EXPECT_EQ(mesh.fibres.row(1), Vec3(0, 0, -2).transpose());
 }
 
+/// Data of elements behind a file of Gmsh, for elements 3 and 2 and for the triangle 1.
+std::string element_data(const std::string& name, const std::string& components = "3") {
+    return "$ElementData\n1\n\"" + name + "\"\n1\n0.0\n3\n0\n" + components +
+           "\n3\n3 0 0 -2\n1 9 9 9\n2 1 2 3\n$EndElementData\n";
+}
+
+TEST_F(TetMeshes, OfGmshHaveTheFibresOfTheirElementData) {
+    for (const auto& [text, line] : {std::pair(msh2_text(), "48"), std::pair(msh4_text(), "58")}) {
+        EXPECT_EQ(read("a.msh", text + element_data("pressure")).fibres.rows(), 0);
+        const TetMesh mesh =
+            read("b.msh", text + element_data("stress") + element_data("fibre_direction"));
+        ASSERT_EQ(mesh.fibres.rows(), 2);
+        EXPECT_EQ(mesh.fibres.row(0), Vec3(1, 2, 3).transpose());
+        EXPECT_EQ(mesh.fibres.row(1), Vec3(0, 0, -2).transpose());
+        EXPECT_EQ(complaint("c.msh", text + element_data("fibre") + element_data("fibres")),
+                  std::string("c.msh:") + line + ": expected one field of fibres, found another");
+    }
+    for (const std::string& start : {msh2_binary(), msh4_binary()}) {
+        Bytes out;
+        out.text(start + "$ElementData\n1\n\"fibre\"\n1\n0\n3\n0\n3\n1\n");
+        out.put<std::int32_t>(3).put<double>(0, 4, 0).text("\n$EndElementData\n");
+        const TetMesh mesh = read("d.msh", out.str());
+        ASSERT_EQ(mesh.fibres.rows(), 2);
+        EXPECT_EQ(mesh.fibres.row(0), Vec3(0, 0, 0).transpose()) << "no direction in the file";
+        EXPECT_EQ(mesh.fibres.row(1), Vec3(0, 4, 0).transpose());
+    }
+    EXPECT_EQ(complaint("e.msh", msh2_text() + "$ElementData\n1\nfibre\n1\n0\n3\n0\n3\n0\n"
+                                               "$EndElementData\n"),
+              "e.msh:30: expected a name in quotes, found fibre");
+}
+
 using Reader = TetMesh (*)(std::string_view, const std::string&);
 struct Sample {
     Reader reader;
@@ -327,7 +359,7 @@ struct Sample {
 };
 
 std::vector<Sample> samples() {
-    return {{detail::read_msh, msh2_text()},
+    return {{detail::read_msh, msh2_text() + element_data("fibre")},
             {detail::read_msh, msh2_binary()},
             {detail::read_msh, msh4_text()},
             {detail::read_msh, msh4_binary()},

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "force_term_checks.h"
 #include "risorius/muscle/musculotendon.h"
@@ -110,6 +111,33 @@ TEST(FibreTets, HaveDerivativesOfTheirEnergy) {
         testing_of::expect_gradient_of_potential(fibres, step, x, 1e-8, 1e-6);
         testing_of::expect_hessian_of_potential(fibres, step, x, 1e-8, 1e-5);
         testing_of::expect_projection(fibres, step, x);
+    }
+}
+
+// Half of the prism is longer and half shorter than the optimal length: each pulls with the tension at the mean length.
+TEST(FibreTets, MayTakeTheirActiveTensionAtTheMeanLength) {
+    const TetBlock block = testing_of::tet_block({4, 1, 1}, kPrism);
+    const FibreTets fibres = fibres_along(block, Vec3::UnitX(), 0.6, {.active_by_mean = true});
+    Points x = block.rest;
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+        x(i, 0) = 0.7 * std::min(x(i, 0), 0.02) + 1.1 * std::max(x(i, 0) - 0.02, 0.0);
+    const MuscleCurves curves = zajac_curves();
+    const Points still = Points::Zero(x.rows(), 3);
+    EXPECT_NEAR(fibres.mean_stretch(x), 0.9, 1e-12);
+    EXPECT_NEAR(pull_of_end(fibres, block, x, still),
+                kTension_pa * kSection_m2 * 0.6 * curves.active.value(0.9), 1e-9);
+    for (const FibreTets::State& state : fibres.states(0, x))
+        EXPECT_NEAR(
+            state.tension_pa,
+            kTension_pa * (0.6 * curves.active.value(0.9) + curves.passive.value(state.stretch)),
+            1e-6);
+    Points moved = x + testing_of::random_points(x.rows(), 5e-4, 3);
+    const double forever = std::numeric_limits<double>::infinity();
+    for (const double h : {forever, 0.01}) {
+        const solve::ImplicitStep step{0, h, x};
+        testing_of::expect_gradient_of_potential(fibres, step, moved, 1e-8, 1e-5);
+        testing_of::expect_hessian_of_potential(fibres, step, moved, 1e-8, 1e-5);
+        testing_of::expect_projection(fibres, step, moved);
     }
 }
 

@@ -64,6 +64,15 @@ void print_rig(const Json& info) {
                     muscle["min"].get<double>() < 0 ? "; from -1" : "",
                     muscle.contains("moves_jaw") ? " (in scripts with \"jaw\": \"muscles\")" : "");
     }
+    if (!info["beside_solids"].empty())
+        std::printf(
+            "\nShear modulus of the tissue around relaxed volume muscles, mean and softest, over "
+            "that of the muscle (Pa)\n");
+    for (const Json& solid : info["beside_solids"])
+        std::printf("  %-34s .%s  %5.0f (%4.0f) / %5.0f = %.2f\n", text(solid["muscle"]).c_str(),
+                    text(solid["side"]).c_str(), solid["tissue_shear_pa"].get<double>(),
+                    solid["softest_pa"].get<double>(), solid["muscle_shear_pa"].get<double>(),
+                    solid["beside_solids_ratio"].get<double>());
     std::printf("\nAction units\n");
     for (const Json& unit : info["action_units"])
         std::printf("  %-12s %-5s  %s\n", text(unit["id"]).c_str(),

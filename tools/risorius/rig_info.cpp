@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/json_object.h"
+#include "risorius/face/diagnostics.h"
+#include "risorius/face/face.h"
 #include "risorius/rig/head.h"
 #include "risorius/rig/muscle_force.h"
 #include "risorius/scene/rig_files.h"
@@ -50,6 +52,21 @@ Json muscles_of(const rig::RigDescription& rig, double size) {
     return out;
 }
 
+/// How stiff the tissue around each volume muscle is. It needs the face, which takes a second.
+Json beside_solids(const scene::RigFiles& files) {
+    const face::Face face(files.rig, files.mesh, face::quality_named("draft"), files.place());
+    Json out = Json::array();
+    for (const face::BesideSolid& solid : face.diagnostics().beside_solids())
+        out.push_back(json_object({{"muscle", solid.muscle},
+                                   {"side", solid.side == Side::kLeft ? "l" : "r"},
+                                   {"nodes_in_tissue", solid.nodes},
+                                   {"tissue_shear_pa", solid.tissue_pa},
+                                   {"softest_pa", solid.softest_pa},
+                                   {"muscle_shear_pa", solid.muscle_pa},
+                                   {"beside_solids_ratio", solid.ratio()}}));
+    return out;
+}
+
 }  // namespace
 
 Json rig_info(const std::filesystem::path& rig_file) {
@@ -67,6 +84,7 @@ Json rig_info(const std::filesystem::path& rig_file) {
     out["landmarks"] = json_object(
         {{"given", files.rig.landmarks.size()}, {"placed_by_the_atlas", head.warped_landmarks}});
     out["muscles"] = muscles_of(files.rig, head.size);
+    out["beside_solids"] = files.rig.solids.empty() ? Json::array() : beside_solids(files);
     out["columns"] = files.rig.channels().column_count();
     out["action_units"] = Json::array();
     for (const track::ActionUnit& unit : files.rig.facs.units)

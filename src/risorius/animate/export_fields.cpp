@@ -91,8 +91,15 @@ io::VtkMesh fibre_mesh(const face::FibreFields& fields) {
 
 io::VtkMesh solid_mesh(const face::SolidFields& fields) {
     io::VtkMesh mesh = moved_mesh(fields.rest, fields.nodes);
-    for (long c = 0; c < fields.cells.rows(); ++c)
-        mesh.add_cell(io::VtkCell::kHexahedron, {fields.cells.row(c).data(), 8});
+    for (long c = 0; c < fields.cells.rows(); ++c) {
+        const int* corner = fields.cells.row(c).data();
+        if (corner[2] != corner[3]) {
+            mesh.add_cell(io::VtkCell::kHexahedron, {corner, 8});
+        } else {
+            const std::array<int, 4> tet{corner[0], corner[1], corner[2], corner[4]};
+            mesh.add_cell(io::VtkCell::kTetra, tet);
+        }
+    }
     mesh.cell_data.push_back(scalar_array("J", fields.volume_ratio));
     add_stress(fields.stress_pa, mesh);
     add_state(fields.state, mesh);

@@ -36,6 +36,7 @@ struct Variant::Parts {
     const FaceImpl& face;
     rig::RigDescription rig;
     FaceTissue tissue;
+    std::optional<FacePoser> poser;
     Parts(const FaceImpl& of, const rig::RigDescription& changed)
         : face(of), rig(changed), tissue(of.head, rig, of.jaw, of.lids, of.shell, of.mesh) {}
 };
@@ -48,6 +49,17 @@ Points Variant::gradient(const Points& nodes, const Eigen::VectorXd& activation,
     parts_->tissue.set_boundary_conditions(parts_->face.boundary_state(activation, drive));
     parts_->tissue.begin_rest(nodes);
     return parts_->tissue.static_gradient(nodes, activation);
+}
+
+Points Variant::vertices(const Points& nodes, const Eigen::VectorXd& activation,
+                         const track::Drive& drive) {
+    const FaceImpl& face = parts_->face;
+    if (!parts_->poser)
+        parts_->poser.emplace(face.head, parts_->rig, face.jaw, face.driven_jaw.joint(), face.lids,
+                              face.shell, face.mesh);
+    return parts_->poser
+        ->pose({nodes, activation, drive, face.driven_jaw.motion(face.now.jaw.q, drive)})
+        .vertices;
 }
 
 }  // namespace risorius::face

@@ -32,7 +32,7 @@ class Calibration {
     FaceImpl* face_;
 };
 
-/// The tissue of a face with another rig, on the same nodes: it gives the gradient of the static energy that this rig would have.
+/// A face with another rig, on the same nodes: it gives the gradient of the static energy that this rig would have, and its skin.
 class Variant {
   public:
     /// `changed` may have other fibres, also more or fewer of them, and other numbers for the tissue. The list of the muscles, the
@@ -43,6 +43,10 @@ class Variant {
     /// Returns the gradient of the static energy, n x 3, N, at `nodes` (n x 3, m, rows of Statics::nodes()), `activation` (per
     /// column, 0..1) and drive. Contact is left out. Rows of fixed nodes are zero.
     Points gradient(const Points& nodes, const Eigen::VectorXd& activation,
+                    const track::Drive& drive);
+    /// Returns the vertices of the mesh at the same arguments, V x 3, m: with the skin over the tissue that `changed` has. The first call
+    /// prepares that skin.
+    Points vertices(const Points& nodes, const Eigen::VectorXd& activation,
                     const track::Drive& drive);
 
   private:

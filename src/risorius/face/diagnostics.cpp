@@ -49,6 +49,10 @@ double Diagnostics::energy_j() const {
     return face_->tissue.static_energy(face_->now.x, face_->now.activation, unused);
 }
 
+std::vector<BesideSolid> Diagnostics::beside_solids() const {
+    return face_->tissue.solids().beside(face_->mesh.nodes, face_->tissue.tets());
+}
+
 std::vector<SolidFigures> Diagnostics::solid_figures() const {
     return face_->tissue.solids().figures(face_->now.x, face_->now.activation);
 }

@@ -59,6 +59,8 @@ class Diagnostics {
     double mean_stretch(const std::string& muscle) const;
     /// Returns measures of the volume muscles, one entry per side of each.
     std::vector<SolidFigures> solid_figures() const;
+    /// Returns how stiff the tissue around the volume muscles is, one entry per side of each. It is that of the rig, in any state.
+    std::vector<BesideSolid> beside_solids() const;
     /// Returns the position of a landmark of Face::head() in Face::pose(), m, in the world frame. A landmark that is not a vertex
     /// moves with the nearest vertex of the skin. Throws Error for an unknown landmark. Takes as long as Face::pose().
     Vec3 landmark(const std::string& id) const;

@@ -57,8 +57,9 @@ struct FibreFields {
 
 /// Volume muscles as cells. Q nodes, C cells. Stress is that of the matrix between the fibres.
 struct SolidFields {
-    Points rest, nodes;             ///< Q x 3
-    Hexahedra cells;                ///< C x 8
+    Points rest, nodes;  ///< Q x 3
+    /// C x 8; a tetrahedron a, b, c, d of a mesh is a, b, c, c, d, d, d, d
+    Hexahedra cells;
     Eigen::VectorXd volume_ratio;   ///< C
     Tensors stress_pa;              ///< C x 6, at the centre of the cell
     std::vector<FibreState> state;  ///< C: mean over the four fibres at the edges of the cell

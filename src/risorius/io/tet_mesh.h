@@ -9,9 +9,9 @@
 ///   .vtk, .vtu    the cell data named "tag", "region", "material", "gmsh:physical", "CellEntityIds" or "medit:ref"; 0 without them
 ///   .mesh, .ele   the reference; the attribute
 ///
-/// Files of VTK may have a field of directions of fibres: cell or point data with three components, named "fibre", "fiber", "fibres",
-/// "fibers", "fibre_direction" or "fiber_direction". Those of points are averaged over the corners of each tetrahedron, without regard to
-/// their sign.
+/// Files of VTK and Gmsh may have a field of directions of fibres: cell or point data (Gmsh: $ElementData) with three components, named
+/// "fibre", "fiber", "fibres", "fibers", "fibre_direction" or "fiber_direction". Those of points are averaged over the corners of each
+/// tetrahedron, without regard to their sign.
 ///
 /// Tetrahedra that are all turned the other way, as TetGen has them, are turned over. One of another orientation than the rest, or without
 /// volume, is an error.

@@ -55,8 +55,8 @@ void check_joined(const Tets& tets, const std::vector<char>& origin,
 
 }  // namespace
 
-Points fibre_flow(const Points& rest, const Tets& tets, const std::vector<char>& origin,
-                  const std::vector<char>& insertion) {
+Points flow_gradients(const Points& rest, const Tets& tets, const std::vector<char>& origin,
+                      const std::vector<char>& insertion) {
     check_joined(tets, origin, insertion);
     const auto nodes = static_cast<std::size_t>(rest.rows());
     std::vector<int> row(nodes, -1);
@@ -96,10 +96,19 @@ Points fibre_flow(const Points& rest, const Tets& tets, const std::vector<char>&
             const double p = row[i] >= 0 ? flow(row[i], 0) : insertion[i] ? 1.0 : 0.0;
             direction += p * slope.row(k).transpose();
         }
-        const double length = direction.norm();
-        if (!(length > 1e-12 * slope.row(1).norm()))
+        out.row(t) = direction.transpose();
+    }
+    return out;
+}
+
+Points fibre_flow(const Points& rest, const Tets& tets, const std::vector<char>& origin,
+                  const std::vector<char>& insertion) {
+    Points out = flow_gradients(rest, tets, origin, insertion);
+    for (Eigen::Index t = 0; t < tets.rows(); ++t) {
+        const double length = out.row(t).norm();
+        if (!(length > 1e-12 * flow_tet(rest, tets, t).slope.row(1).norm()))
             throw std::invalid_argument("fibre_flow: nothing flows in a tetrahedron");
-        out.row(t) = direction.transpose() / length;
+        out.row(t) /= length;
     }
     return out;
 }

@@ -22,4 +22,9 @@ namespace risorius::muscle {
 Points fibre_flow(const Points& rest, const Tets& tets, const std::vector<char>& origin,
                   const std::vector<char>& insertion);
 
+/// Returns grad p of each tetrahedron, T x 3, 1/m; it is 0 in a tetrahedron that lies within an end. Its length says how densely the fibres
+/// lie. Throws std::invalid_argument when a tetrahedron is not joined to both ends.
+Points flow_gradients(const Points& rest, const Tets& tets, const std::vector<char>& origin,
+                      const std::vector<char>& insertion);
+
 }  // namespace risorius::muscle

@@ -198,6 +198,14 @@ constexpr const char* kTableFiles[] = {"landmarks.json",   "tissue_thickness.jso
                                        "attachments.json", "muscle_bands.json",
                                        "muscles.json",     kWrinkleFile};
 
+void read_solids_of(const JsonCursor& json, RigDescription& rig) {
+    rig.solids = read_solid_muscles(json, rig.muscles);
+    for (const SolidMuscle& solid : rig.solids)
+        if (solid.mesh)
+            for (const std::filesystem::path& file : {solid.mesh->file, solid.mesh->right_file})
+                if (!file.empty()) rig.table_files.push_back(file);
+}
+
 // A rig without its own table has the wrinkles of the standard anatomy.
 void read_wrinkles_of(const JsonCursor& anatomy, RigDescription& rig) {
     const auto named = anatomy.find("wrinkles");
@@ -315,6 +323,12 @@ Json resolved_rig(const std::filesystem::path& file) {
     follow_all(out["anatomy"], follow_table(json.at("anatomy")),
                {"landmarks", "thickness", "attachments", "muscle_bands", "muscles", "wrinkles",
                 "solids", "lips", "jaw", "eyes", "activation"});
+    // Paths of meshes begin at the file of their table, which is none of the rig's any more
+    if (out["anatomy"].contains("solids"))
+        for (const SolidMuscle& solid : rig.solids)
+            if (solid.mesh)
+                out["anatomy"]["solids"][solid.muscle]["mesh"] =
+                    solid_muscles_json({solid})[solid.muscle]["mesh"];
     Json& strength = out["anatomy"]["strength"];
     for (const MuscleBand& band : rig.atlas.bands)
         if (has_one_strength(rig.atlas.bands, band.muscle)) strength[band.muscle] = band.strength;
@@ -361,8 +375,7 @@ RigDescription read_rig(const JsonCursor& json) {
     rig.atlas.bands = read_muscle_bands(table(anatomy.at("muscle_bands")));
     rig.muscles = read_muscle_table(table(anatomy.at("muscles")));
     read_wrinkles_of(anatomy, rig);
-    if (const auto solids = anatomy.find("solids"))
-        rig.solids = read_solid_muscles(table(*solids), rig.muscles);
+    if (const auto solids = anatomy.find("solids")) read_solids_of(table(*solids), rig);
     if (const auto strength = anatomy.find("strength"))
         for (const std::string& muscle : strength->keys()) {
             bool known = false;
@@ -453,7 +466,7 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     Json strength = Json::object();
     for (const MuscleBand& band : rig.atlas.bands) strength[band.muscle] = band.strength;
     anatomy["strength"] = strength;
-    if (!rig.solids.empty()) anatomy["solids"] = solid_muscles_json(rig.solids);
+    if (!rig.solids.empty()) anatomy["solids"] = solid_muscles_json(rig.solids, relative);
     anatomy["lips"] = fields_of(rig.lips);
     anatomy["jaw"] = fields_of(rig.jaw);
     anatomy["eyes"] = fields_of(rig.eyes);

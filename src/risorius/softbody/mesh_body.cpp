@@ -11,6 +11,7 @@
 #include "risorius/core/existing_file.h"
 #include "risorius/core/known_names.h"
 #include "risorius/geom/filled_surface.h"
+#include "risorius/geom/tet_boundary.h"
 #include "risorius/io/read_mesh.h"
 #include "risorius/io/tet_mesh.h"
 #include "risorius/softbody/detail/read_numbers.h"
@@ -184,28 +185,6 @@ std::vector<int> assign(const MeshBodyDescription& description, const io::TetMes
     return out;
 }
 
-/// Triangles that belong to one tetrahedron only, facing outward.
-Triangles boundary_of(const Tets& tets) {
-    static constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-    std::map<std::array<int, 3>, std::pair<int, std::array<int, 3>>> faces;
-    for (Eigen::Index t = 0; t < tets.rows(); ++t)
-        for (const auto& face : kFaces) {
-            const std::array<int, 3> corners{tets(t, face[0]), tets(t, face[1]), tets(t, face[2])};
-            std::array<int, 3> key = corners;
-            std::sort(key.begin(), key.end());
-            const auto [at, is_new] = faces.emplace(key, std::pair(1, corners));
-            if (!is_new) ++at->second.first;
-        }
-    std::vector<std::array<int, 3>> outer;
-    for (const auto& [key, face] : faces)
-        if (face.first == 1) outer.push_back(face.second);
-    Triangles out(static_cast<Eigen::Index>(outer.size()), 3);
-    for (std::size_t f = 0; f < outer.size(); ++f)
-        for (std::size_t k = 0; k < 3; ++k)
-            out(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = outer[f][k];
-    return out;
-}
-
 std::vector<std::array<int, 2>> edges_of(const Tets& tets) {
     std::set<std::array<int, 2>> edges;
     for (Eigen::Index t = 0; t < tets.rows(); ++t)
@@ -351,7 +330,7 @@ SoftBody build_mesh_body(const MeshBodyDescription& description) {
                   .rest = built.rest,
                   .system = std::move(system),
                   .length_scale_m = length_m,
-                  .surface = boundary_of(built.tets),
+                  .surface = geom::boundary_of(built.tets),
                   .wires = edges_of(built.tets),
                   .tets = term,
                   .muscles = muscles,

@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <map>
+#include <unordered_map>
 
 #include "risorius/io/detail/mesh_limits.h"
 #include "risorius/io/detail/mesh_scanner.h"
@@ -40,7 +41,9 @@ class MshReader {
         in_.expect("$EndMeshFormat");
         for (std::string_view section = in_.word(); !section.empty(); section = in_.word())
             read_section(std::string(section));
-        return mesh_.finish();
+        TetMesh out = mesh_.finish();
+        if (!fibres_.empty()) out.fibres = fibres_in_order();
+        return out;
     }
 
   private:
@@ -54,6 +57,8 @@ class MshReader {
             four_ ? read_nodes_4() : read_nodes_2();
         else if (section == "$Elements")
             four_ ? read_elements_4() : read_elements_2();
+        else if (section == "$ElementData")
+            read_data();
         else
             return skip(section);
         in_.expect("$End" + section.substr(1));
@@ -132,7 +137,7 @@ class MshReader {
                 tags = integer("the number of tags", 0, kMostTags);
             }
             for (long long e = 0; e < in_block; ++e, ++done) {
-                integer("the number of an element", 0, kLargestTag);
+                const long long id = integer("the number of an element", 0, kLargestTag);
                 if (!binary_) {
                     type = integer("the type of an element", 1, kNodesOfType.size() - 1);
                     tags = integer("the number of tags", 0, kMostTags);
@@ -143,14 +148,14 @@ class MshReader {
                     if (t == 0) physical = tag;
                     if (t == 1) entity = tag;
                 }
-                read_nodes_of(type, physical != 0 ? physical : entity,
+                read_nodes_of(id, type, physical != 0 ? physical : entity,
                               [&] { return integer("a node", 0, kLargestTag); });
             }
         }
     }
 
     template <class Next>
-    void read_nodes_of(long long type, int tag, const Next& next) {
+    void read_nodes_of(long long id, long long type, int tag, const Next& next) {
         const int nodes = kNodesOfType[static_cast<std::size_t>(type)];
         if (type == 11) in_.fail("linear tetrahedra with 4 nodes", "quadratic ones with 10");
         std::array<long long, 4> tet{};
@@ -158,7 +163,58 @@ class MshReader {
             const long long node = next();
             if (k < 4) tet[static_cast<std::size_t>(k)] = node;
         }
-        if (type == kLinearTet) mesh_.add_tet(tet, tag);
+        if (type != kLinearTet) return;
+        mesh_.add_tet(tet, tag);
+        ids_.push_back(id);
+    }
+
+    /// Directions of fibres are data of elements with three components. Other data are left out. Both versions write them in this way.
+    void read_data() {
+        in_.line();
+        std::string name;
+        const std::size_t strings = in_.count("strings", 2, kMostTags);
+        in_.line();
+        for (std::size_t i = 0; i < strings; ++i) {
+            const std::string text(in_.line());
+            if (i > 0) continue;
+            const std::size_t from = text.find('"'), to = text.rfind('"');
+            if (from == std::string::npos || to <= from) in_.fail("a name in quotes", text);
+            name = text.substr(from + 1, to - from - 1);
+        }
+        const std::size_t reals = in_.count("real tags", 2, kMostTags);
+        for (std::size_t i = 0; i < reals; ++i) in_.number("a real tag");
+        const std::size_t integers = in_.count("integer tags", 2, kMostTags);
+        if (integers < 3) in_.fail("the step, components and elements", "fewer integer tags");
+        in_.integer("the step", -kLargestTag, kLargestTag);
+        const auto components =
+            static_cast<std::size_t>(in_.integer("the number of components", 1, 9));
+        const std::size_t count =
+            in_.count("elements", binary_ ? 4 + 8 * components : 2 + 2 * components, 4 * kMostTets);
+        for (std::size_t i = 3; i < integers; ++i)
+            in_.integer("an integer tag", -kLargestTag, kLargestTag);
+        const bool wanted = components == 3 && is_fibre_name(name);
+        if (wanted && !fibres_.empty()) in_.fail("one field of fibres", "another");
+        begin_block();
+        for (std::size_t e = 0; e < count; ++e) {
+            const long long id = integer("the number of an element", 0, kLargestTag);
+            Vec3 value = Vec3::Zero();
+            for (std::size_t k = 0; k < components; ++k) {
+                const double one = real("a component");
+                if (k < 3) value[static_cast<Eigen::Index>(k)] = one;
+            }
+            if (!wanted) continue;
+            if (!value.allFinite()) in_.fail("a finite direction of fibres", "another");
+            fibres_[id] = value;
+        }
+    }
+
+    /// One row per tetrahedron; 0 where the field has none.
+    Points fibres_in_order() const {
+        Points out = Points::Zero(static_cast<Eigen::Index>(ids_.size()), 3);
+        for (std::size_t t = 0; t < ids_.size(); ++t)
+            if (const auto found = fibres_.find(ids_[t]); found != fibres_.end())
+                out.row(static_cast<Eigen::Index>(t)) = found->second.transpose();
+        return out;
     }
 
     // Version 4
@@ -220,8 +276,8 @@ class MshReader {
             const std::size_t count = held("elements", 4, 16);
             const auto group = physical_.find(entity);
             for (std::size_t e = 0; e < count; ++e) {
-                whole("the number of an element", kLargestId);
-                read_nodes_of(type, group == physical_.end() ? entity : group->second,
+                const long long id = whole("the number of an element", kLargestId);
+                read_nodes_of(id, type, group == physical_.end() ? entity : group->second,
                               [&] { return whole("a node", kLargestId); });
             }
         }
@@ -230,7 +286,9 @@ class MshReader {
     MeshScanner in_;
     TetMeshBuilder mesh_;
     bool binary_ = false, swapped_ = false, four_ = false;
-    std::map<int, int> physical_;  ///< of each volume
+    std::map<int, int> physical_;                           ///< of each volume
+    std::vector<long long> ids_;                            ///< of the tetrahedra
+    std::unordered_map<long long, Vec3, NodeHash> fibres_;  ///< of elements
 };
 
 }  // namespace

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/face/muscle/detail/muscle_solids.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-
-#include "risorius/face/anatomy/detail/jaw_muscles.h"
+#include <utility>
 
 namespace risorius::face {
 
 namespace {
 
-constexpr double kRadian = 3.14159265358979323846 / 180.0;
-constexpr double kMuscleDensity_kg_m3 = 1060;
-constexpr double kShortTendon = 0.15;      // of the optimal fibre length; shorter tendons are rigid
 constexpr double kBinding_pa_per_m = 2e7;  // muscle to the tissue around it, by area of a node
 constexpr double kEndBinding = 15;         // factor for the ends that pull on soft tissue
 constexpr double kSupport_pa_per_m = 2e7;  // of the deep side of a jaw muscle on its bone, per area
@@ -53,81 +47,13 @@ void MuscleSolids::build_parts(const rig::RigDescription& rig) {
     mass_ = Eigen::VectorXd::Zero(nodes());
     for (const SolidPart& place : placement_.parts) {
         Part part;
-        part.place = place;
-        const tissue::GridShape& grid = place.grid;
-        part.rest = rest_(place.node, Eigen::all);
-        const auto rest_at = [&](const Vec3& a) -> Vec3 {
-            return part.rest
-                .row(grid.index(static_cast<int>(std::lround(a[0] * (grid.m - 1))),
-                                static_cast<int>(std::lround(a[1] * (grid.n - 1))),
-                                static_cast<int>(std::lround(a[2] * (grid.o - 1)))))
-                .transpose();
-        };
-        try {
-            part.cells = std::make_unique<tissue::CellSolid>(
-                tissue::cell_body(tissue::uniform_cells(grid), rest_at,
-                                  {place.solid->shear_pa, place.solid->volume_pa,
-                                   rig.tissue.damping_s * place.solid->shear_pa},
-                                  kMuscleDensity_kg_m3));
-        } catch (const std::invalid_argument&) {
-            throw Error("anatomy/solids/" + place.muscle->id,
-                        "a muscle whose cells have volume on this head", "a folded cell");
-        }
-        const Eigen::VectorXd& mass = part.cells->body().mass_kg;
+        part.belly = make_belly(place, placement_, rig);
+        const Eigen::VectorXd mass = part.belly->mass_kg();
         for (std::size_t i = 0; i < place.node.size(); ++i)
             mass_[place.node[i]] += mass[static_cast<long>(i)];
-
-        std::vector<std::vector<int>> chains;
-        for (int k = 0; k < grid.n * grid.o; ++k) {
-            std::vector<int> chain;
-            for (int m = 0; m < grid.m; ++m) chain.push_back(m * grid.n * grid.o + k);
-            chains.push_back(std::move(chain));
-        }
-        const rig::Muscle& muscle = *place.muscle;
-        const double fibre_m = muscle.rest_stretch * muscle.optimal_length_m;
-        muscle::ZajacShape curves;
-        curves.passive_strain =
-            muscle.group == "mimetic" ? rig.tissue.fibre_passive_strain : kJawPassiveStrain;
-        const double count = static_cast<double>(chains.size());
-        part.chains = std::make_unique<muscle::ChainSet>(
-            std::move(chains), part.rest,
-            muscle::ChainProperties{
-                .f0_n = place.f0_n / count,
-                .rest_stretch = muscle.rest_stretch,
-                .pennation_rad = muscle.pennation_deg * kRadian,
-                .tendon_fraction = muscle.tendon_slack_m / (muscle.tendon_slack_m + fibre_m),
-                .rigid_tendon = muscle.tendon_slack_m < kShortTendon * muscle.optimal_length_m},
-            muscle::zajac_curves(curves));
-        part.hessian = std::make_unique<solve::HessianBuilder>(grid.size(), std::vector<char>{});
-        part.start = part.rest;
         parts_.push_back(std::move(part));
     }
 }
-
-namespace {
-
-// Returns the coordinates of p in a cell, 0..1 on each axis if inside: Newton iterations on the trilinear map from the middle.
-Vec3 place_in_cell(const Vec3& p, const Eigen::Matrix<double, 3, 8>& corner) {
-    Vec3 s = Vec3::Constant(0.5);
-    for (int iteration = 0; iteration < 8; ++iteration) {
-        const std::array<double, 8> w = tissue::trilinear_weights(s);
-        Vec3 at = Vec3::Zero();
-        Mat3 slope = Mat3::Zero();
-        for (int c = 0; c < 8; ++c) {
-            at += w[static_cast<std::size_t>(c)] * corner.col(c);
-            const double f[3] = {c & 4 ? s[0] : 1 - s[0], c & 2 ? s[1] : 1 - s[1],
-                                 c & 1 ? s[2] : 1 - s[2]};
-            slope.col(0) += (c & 4 ? 1 : -1) * f[1] * f[2] * corner.col(c);
-            slope.col(1) += (c & 2 ? 1 : -1) * f[0] * f[2] * corner.col(c);
-            slope.col(2) += (c & 1 ? 1 : -1) * f[0] * f[1] * corner.col(c);
-        }
-        s += (slope.fullPivLu().solve(p - at)).cwiseMax(-0.5).cwiseMin(0.5);
-        s = s.cwiseMax(-2.0).cwiseMin(3.0);
-    }
-    return s;
-}
-
-}  // namespace
 
 void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
                         std::vector<Attachment>& attachments) {
@@ -159,35 +85,21 @@ void MuscleSolids::bind(const TissueLocator& locator, const TissueMesh& mesh,
     for (Attachment& attachment : attachments) {
         const int tissue_node = node_of(attachment.shell_vertex, kDeep);
         const Vec3 p = mesh.nodes.row(tissue_node).transpose();
-        double min_excess = 0.35;
+        double least_excess = 0.35;
         Binding best{};
         for (const Part& part : parts_) {
-            if (part.place.muscle->group != "jaw") continue;
-            for (const tissue::CellMesh::Cell& cell : part.cells->mesh().cells()) {
-                Eigen::Matrix<double, 3, 8> corner;
-                for (int c = 0; c < 8; ++c)
-                    corner.col(c) =
-                        part.rest.row(cell.vertex[static_cast<std::size_t>(c)]).transpose();
-                if ((corner.rowwise().mean() - p).norm() > 0.03) continue;
-                const Vec3 s = place_in_cell(p, corner);
-                const Vec3 excess = (s - Vec3::Constant(0.5)).cwiseAbs() - Vec3::Constant(0.5);
-                const double out = std::max(0.0, excess.maxCoeff());
-                if (out >= min_excess) continue;
-                const std::array<double, 8> w = tissue::trilinear_weights(s);
-                Vec3 found = Vec3::Zero();
-                for (int c = 0; c < 8; ++c) found += w[static_cast<std::size_t>(c)] * corner.col(c);
-                if ((found - p).norm() > kInside_m) continue;
-                min_excess = out;
-                best = {};
-                best.tissue_count = 1;
-                best.tissue[0] = tissue_node;
-                best.tissue_weight[0] = 1;
-                best.solid_count = 8;
-                for (int c = 0; c < 8; ++c) {
-                    best.solid[c] = part.place.node[static_cast<std::size_t>(
-                        cell.vertex[static_cast<std::size_t>(c)])];
-                    best.solid_weight[c] = w[static_cast<std::size_t>(c)];
-                }
+            if (part.place().muscle->group != "jaw") continue;
+            BellyPoint point;
+            part.belly->find(p, least_excess, point);
+            if (point.count == 0) continue;
+            best = {};
+            best.tissue_count = 1;
+            best.tissue[0] = tissue_node;
+            best.tissue_weight[0] = 1;
+            best.solid_count = point.count;
+            for (std::size_t c = 0; c < static_cast<std::size_t>(point.count); ++c) {
+                best.solid[c] = part.place().node[static_cast<std::size_t>(point.node[c])];
+                best.solid_weight[c] = point.weight[c];
             }
         }
         if (best.solid_count == 0) continue;
@@ -223,7 +135,7 @@ void MuscleSolids::add_supports() {
 
 bool MuscleSolids::is_solid(const std::string& muscle) const {
     return std::any_of(parts_.begin(), parts_.end(),
-                       [&](const Part& part) { return part.place.muscle->id == muscle; });
+                       [&](const Part& part) { return part.place().muscle->id == muscle; });
 }
 
 void MuscleSolids::move_bodies(const std::array<Rigid, kBodies>& bodies) {
@@ -271,9 +183,9 @@ void MuscleSolids::carry(Points& x, const Rigid& from, const Rigid& to) const {
 }
 
 void MuscleSolids::take(const Part& part, const Points& x, Points& local) const {
-    local.resize(static_cast<long>(part.place.node.size()), 3);
-    for (std::size_t i = 0; i < part.place.node.size(); ++i) {
-        const int node = part.place.node[i];
+    local.resize(static_cast<long>(part.place().node.size()), 3);
+    for (std::size_t i = 0; i < part.place().node.size(); ++i) {
+        const int node = part.place().node[i];
         local.row(static_cast<long>(i)) = placement_.nodes[static_cast<std::size_t>(node)].on_bone
                                               ? bone_.row(node)
                                               : x.row(first_ + node);
@@ -288,10 +200,9 @@ double MuscleSolids::add_energy(const Points& x, const Eigen::VectorXd& activati
     for (const Part& part : parts_) {
         take(part, x, part.x);
         part.gradient.setZero(part.x.rows(), 3);
-        energy += part.cells->add_potential({0.0, step_s_, part.start}, part.x, part.gradient);
-        energy += part.chains->add_energy(part.x, activation[part.place.column], part.gradient);
-        for (std::size_t i = 0; i < part.place.node.size(); ++i)
-            solid_b_.row(part.place.node[i]) += part.gradient.row(static_cast<long>(i));
+        part.belly->add_energy(part.x, activation[part.place().column], energy, part.gradient);
+        for (std::size_t i = 0; i < part.place().node.size(); ++i)
+            solid_b_.row(part.place().node[i]) += part.gradient.row(static_cast<long>(i));
     }
     for (const Binding& binding : bindings_) {
         Vec3 apart = -binding.apart_at_rest;
@@ -363,11 +274,8 @@ void MuscleSolids::add_metric(solve::MetricBuilder& builder) const {
 }
 
 void MuscleSolids::set_strength(const std::string& muscle, double factor) {
-    for (Part& part : parts_) {
-        if (part.place.muscle->id != muscle) continue;
-        if (part.built_f0_n == 0) part.built_f0_n = part.chains->properties().f0_n;
-        part.chains->set_f0(factor * part.built_f0_n);
-    }
+    for (Part& part : parts_)
+        if (part.place().muscle->id == muscle) part.belly->set_strength(factor);
     forget();
 }
 
@@ -377,9 +285,9 @@ double MuscleSolids::mean_stretch(const std::string& muscle, const Points& x,
     int count = 0;
     Points local;
     for (const Part& part : parts_) {
-        if (part.place.muscle->id != muscle) continue;
+        if (part.place().muscle->id != muscle) continue;
         take(part, x, local);
-        sum += part.chains->mean_stretch(local, activation[part.place.column]);
+        sum += part.belly->mean_stretch(local, activation[part.place().column]);
         ++count;
     }
     return count > 0 ? sum / count : 1.0;
@@ -390,17 +298,16 @@ std::vector<muscle::ChainSet::State> MuscleSolids::chain_states(
     const Eigen::VectorXd& activation) const {
     Points local;
     for (const Part& part : parts_) {
-        if (part.place.muscle->id != muscle || part.place.side != side) continue;
+        if (part.place().muscle->id != muscle || part.place().side != side) continue;
         take(part, x, local);
-        return part.chains->states(local, activation[part.place.column]);
+        return part.belly->chain_states(local, activation[part.place().column]);
     }
     return {};
 }
 
 std::optional<double> MuscleSolids::greatest_force_n(int column) const {
     for (const Part& part : parts_)
-        if (part.place.column == column)
-            return part.chains->size() * part.chains->properties().f0_n;
+        if (part.place().column == column) return part.belly->f0_n();
     return std::nullopt;
 }
 
@@ -408,23 +315,25 @@ std::vector<MuscleSolids::Line> MuscleSolids::lines() const {
     using Body = rig::PathPoint::Body;
     std::vector<Line> out;
     for (const Part& part : parts_) {
-        const tissue::GridShape& grid = part.place.grid;
-        Line line{
-            .muscle = part.place.muscle->id, .column = part.place.column, .path = {}, .body = {}};
-        line.chain = part.chains->properties();
-        line.f0_n = part.chains->size() * line.chain.f0_n;
-        for (int m = 0; m < grid.m; ++m) {
+        Line line{.muscle = part.place().muscle->id,
+                  .column = part.place().column,
+                  .path = {},
+                  .body = {},
+                  .chain = {}};
+        line.chain = part.belly->chain();
+        line.f0_n = part.belly->f0_n();
+        for (const std::vector<int>& section : part.belly->sections()) {
+            const auto count = static_cast<double>(section.size());
             Vec3 sum = Vec3::Zero();
             double jaw = 0;
             bool bone = false;
-            for (int n = 0; n < grid.n; ++n)
-                for (int o = 0; o < grid.o; ++o) {
-                    const SolidNode& node = placement_.nodes[static_cast<std::size_t>(
-                        part.place.node[static_cast<std::size_t>(grid.index(m, n, o))])];
-                    sum += node.rest / (grid.n * grid.o);
-                    jaw += node.jaw_fraction / (grid.n * grid.o);
-                    bone |= node.on_bone;
-                }
+            for (const int of_belly : section) {
+                const SolidNode& node = placement_.nodes[static_cast<std::size_t>(
+                    part.place().node[static_cast<std::size_t>(of_belly)])];
+                sum += node.rest / count;
+                jaw += node.jaw_fraction / count;
+                bone |= node.on_bone;
+            }
             line.path.push_back(sum);
             line.body.push_back(!bone ? Body::kSoft : jaw > 0.5 ? Body::kMandible : Body::kSkull);
         }
@@ -439,24 +348,18 @@ std::vector<SolidFigures> MuscleSolids::figures(const Points& x,
     Points local;
     for (const Part& part : parts_) {
         take(part, x, local);
-        const tissue::GridShape& grid = part.place.grid;
-        SolidFigures figures{.muscle = part.place.muscle->id, .side = part.place.side};
-        const Eigen::VectorXd now = part.cells->cell_volumes(local),
-                              then = part.cells->cell_volumes(part.rest);
-        figures.volume_ratio = now.sum() / then.sum();
-        figures.min_cell_ratio = now.cwiseQuotient(then).minCoeff();
-        figures.mean_stretch = part.chains->mean_stretch(local, activation[part.place.column]);
-        // The section through the middle of the belly, between two slabs when there is no middle slab
-        const auto thickness = [&](const Points& p) {
-            double sum = 0;
-            for (int m : {(grid.m - 1) / 2, grid.m / 2})
-                for (int n : {(grid.n - 1) / 2, grid.n / 2})
-                    sum +=
-                        (p.row(grid.index(m, n, grid.o - 1)) - p.row(grid.index(m, n, 0))).norm();
-            return sum;
-        };
-        figures.thickness_ratio = thickness(local) / thickness(part.rest);
-        out.push_back(figures);
+        out.push_back(part.belly->figures(local, activation[part.place().column]));
+    }
+    return out;
+}
+
+std::vector<SolidCellState> MuscleSolids::cell_states(const Points& x,
+                                                      const Eigen::VectorXd& activation) const {
+    std::vector<SolidCellState> out;
+    Points local;
+    for (const Part& part : parts_) {
+        take(part, x, local);
+        part.belly->add_cell_states(local, activation[part.place().column], out);
     }
     return out;
 }
@@ -467,9 +370,31 @@ double MuscleSolids::max_volume_error(const Points& x) const {
     for (const Part& part : parts_) {
         take(part, x, local);
         worst =
-            std::max(worst, std::abs(part.cells->volume(local) / part.cells->rest_volume() - 1));
+            std::max(worst, std::abs(part.belly->volume(local) / part.belly->rest_volume() - 1));
     }
     return worst;
+}
+
+void MuscleSolids::add_surfaces(MuscleSurfaces& surfaces) {
+    for (Part& part : parts_) {
+        const SolidPart& place = part.place();
+        BellySurface made =
+            part.belly->surface({on_bone(place.node.front()), on_bone(place.node.back())});
+        part.first_vertex = surfaces.rest.rows();
+        surfaces.add(surfaces.of(place.muscle->id,
+                                 place.muscle->paired ? std::optional(place.side) : std::nullopt,
+                                 place.column),
+                     made.weights * part.belly->rest(), made.fibre, made.tendon, made.triangles);
+        part.surface = std::move(made.weights);
+    }
+}
+
+void MuscleSolids::place_surfaces(const Points& x, Points& vertices) const {
+    Points local;
+    for (const Part& part : parts_) {
+        take(part, x, local);
+        vertices.middleRows(part.first_vertex, part.surface.rows()) = part.surface * local;
+    }
 }
 
 }  // namespace risorius::face

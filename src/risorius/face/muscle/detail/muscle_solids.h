@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// Volume muscles of a face: solids under the skin, each a grid of hexahedral cells with fibres and tendons. They are part of the same
-/// implicit solve as the tissue.
+/// Volume muscles of a face: solids under the skin, each a grid of hexahedral cells with fibres and tendons, or a mesh of tetrahedra with
+/// fibres. They are part of the same implicit solve as the tissue.
 ///
 ///   unknowns  x = [nodes of the tissue; nodes of all volume muscles], one row each, m
-///   E = cells (tissue/cell_solid.h) + chains (muscle/chain_set.h) + 1/2 k |p_tissue - p_muscle|^2 + 1/2 kn (d.n)^2
+///   E = bellies (solid_belly.h) + 1/2 k |p_tissue - p_muscle|^2 + 1/2 kn (d.n)^2
 ///
-/// The third term is the sum over the bindings, springs of stiffness k, N/m. The last is the sum over the nodes that rest on bone: d is
+/// The second term is the sum over the bindings, springs of stiffness k, N/m. The last is the sum over the nodes that rest on bone: d is
 /// the displacement from the place on the bone, m, n the outward direction, kn a stiffness, N/m.
 ///
 /// Nodes on bone move with it. A binding ties a muscle node inside the tissue to the point of the tissue where it lies, or deep tissue to
@@ -30,13 +30,14 @@
 #include "risorius/face/anatomy/detail/wrench.h"
 #include "risorius/face/muscle/detail/muscle_placement.h"
 #include "risorius/face/muscle/detail/muscle_surface.h"
+#include "risorius/face/muscle/detail/solid_belly.h"
 #include "risorius/face/muscle/detail/solid_figures.h"
 #include "risorius/face/muscle/detail/solid_placement.h"
 #include "risorius/muscle/chain_set.h"
 #include "risorius/solve/hessian_builder.h"
 #include "risorius/solve/sparse_cholesky.h"
 #include "risorius/solve/symmetric_factor.h"
-#include "risorius/tissue/cell_solid.h"
+#include "risorius/tissue/tet_solid.h"
 #include "risorius/tissue/zero_length_springs.h"
 
 namespace risorius::solve {
@@ -110,6 +111,8 @@ class MuscleSolids {
     std::optional<double> greatest_force_n(int column) const;
     /// Returns one entry per part.
     std::vector<SolidFigures> figures(const Points& x, const Eigen::VectorXd& activation) const;
+    /// Returns one entry per part. `nodes`: of the tissue at rest, m.
+    std::vector<BesideSolid> beside(const Points& nodes, const tissue::TetSolid& tissue) const;
     /// Returns one entry per cell, part by part.
     std::vector<SolidCellState> cell_states(const Points& x,
                                             const Eigen::VectorXd& activation) const;
@@ -141,16 +144,12 @@ class MuscleSolids {
 
   private:
     struct Part {
-        SolidPart place;
-        std::unique_ptr<tissue::CellSolid> cells;
-        std::unique_ptr<muscle::ChainSet> chains;
-        double built_f0_n = 0;  ///< of the start; 0 until the strength is changed
-        std::unique_ptr<solve::HessianBuilder> hessian;  ///< over its own nodes
-        Points rest, start;
+        std::unique_ptr<SolidBelly> belly;
         mutable Points x, gradient;
         /// Weights of the nodes in each point of the drawn surface.
         Eigen::SparseMatrix<double, Eigen::RowMajor> surface;
         Eigen::Index first_vertex = 0;
+        const SolidPart& place() const { return belly->place(); }
     };
     struct Binding {
         int tissue[4];
@@ -177,7 +176,6 @@ class MuscleSolids {
         mutable std::vector<double> b, y;
     };
     void build_parts(const rig::RigDescription& rig);
-    void add_surface(Part& part, MuscleSurfaces& surfaces) const;
     void bind(const TissueLocator& locator, const TissueMesh& mesh,
               std::vector<Attachment>& attachments);
     void add_supports();
@@ -196,7 +194,6 @@ class MuscleSolids {
     std::unique_ptr<tissue::ZeroLengthSprings> supports_;
     std::vector<int> support_node_;
     std::vector<int> held_tissue_;  ///< tissue nodes that are not unknowns
-    double step_s_ = 0;
 
     std::vector<Group> groups_;
     std::vector<int> row_;  ///< per node, its row in its group

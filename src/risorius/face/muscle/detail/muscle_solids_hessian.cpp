@@ -8,8 +8,10 @@
 namespace risorius::face {
 
 void MuscleSolids::begin_rest(const Points& x) {
-    step_s_ = std::numeric_limits<double>::infinity();
-    for (Part& part : parts_) take(part, x, part.start);
+    for (Part& part : parts_) {
+        take(part, x, part.x);
+        part.belly->begin_step(std::numeric_limits<double>::infinity(), part.x);
+    }
 }
 
 void MuscleSolids::add_hessian(const Points& x, const Eigen::VectorXd& activation,
@@ -17,17 +19,8 @@ void MuscleSolids::add_hessian(const Points& x, const Eigen::VectorXd& activatio
     for (const Part& part : parts_) {
         take(part, x, part.x);
         std::vector<int> row;
-        for (int node : part.place.node) row.push_back(first_ + node);
-        part.hessian->clear();
-        part.cells->add_hessian({0.0, step_s_, part.start}, part.x, curvature, *part.hessian);
-        const solve::SymmetricBlocks& blocks = part.hessian->build_blocks();
-        for (int column = 0; column < blocks.nodes(); ++column)
-            for (int i = blocks.begin[static_cast<std::size_t>(column)];
-                 i < blocks.begin[static_cast<std::size_t>(column) + 1]; ++i)
-                hessian.add(row[static_cast<std::size_t>(blocks.row[static_cast<std::size_t>(i)])],
-                            row[static_cast<std::size_t>(column)],
-                            blocks.value[static_cast<std::size_t>(i)]);
-        part.chains->add_hessian(part.x, activation[part.place.column], curvature, row, hessian);
+        for (int node : part.place().node) row.push_back(first_ + node);
+        part.belly->add_hessian(part.x, activation[part.place().column], curvature, row, hessian);
     }
     for (const Binding& binding : bindings_) {
         int node[12];

@@ -21,14 +21,16 @@ void MuscleSolids::forget() {
 
 void MuscleSolids::begin_step(double h, const Points& x, const Eigen::VectorXd& activation) {
     if (empty()) return;
-    step_s_ = h;
-    for (Part& part : parts_) take(part, x, part.start);
+    for (Part& part : parts_) {
+        take(part, x, part.x);
+        part.belly->begin_step(h, part.x);
+    }
     for (Group& group : groups_) {
         bool known = group.made_for_s == h;
         for (std::size_t p = 0; known && p < group.part.size(); ++p)
-            known =
-                std::abs(activation[parts_[static_cast<std::size_t>(group.part[p])].place.column] -
-                         group.made_with[p]) < kRefreshActivation;
+            known = std::abs(
+                        activation[parts_[static_cast<std::size_t>(group.part[p])].place().column] -
+                        group.made_with[p]) < kRefreshActivation;
         for (std::size_t i = 0; known && i < group.node.size(); ++i)
             known = (x.row(first_ + group.node[i]) - group.made_at.row(static_cast<long>(i)))
                         .squaredNorm() < kRefreshMove_m * kRefreshMove_m;
@@ -41,7 +43,7 @@ void MuscleSolids::build_groups() {
     row_.assign(static_cast<std::size_t>(nodes()), 0);
     for (std::size_t p = 0; p < parts_.size(); ++p) {
         int which = -1;
-        for (int node : parts_[p].place.node)
+        for (int node : parts_[p].place().node)
             which = std::max(which, group_of_node[static_cast<std::size_t>(node)]);
         if (which < 0) {
             which = static_cast<int>(groups_.size());
@@ -50,7 +52,7 @@ void MuscleSolids::build_groups() {
         Group& group = groups_[static_cast<std::size_t>(which)];
         group.part.push_back(static_cast<int>(p));
         group.row.emplace_back();
-        for (int node : parts_[p].place.node) {
+        for (int node : parts_[p].place().node) {
             if (group_of_node[static_cast<std::size_t>(node)] < 0) {
                 group_of_node[static_cast<std::size_t>(node)] = which;
                 row_[static_cast<std::size_t>(node)] = static_cast<int>(group.node.size());
@@ -88,19 +90,9 @@ void MuscleSolids::refresh(Group& group, double h, const Points& x,
     for (std::size_t p = 0; p < group.part.size(); ++p) {
         Part& part = parts_[static_cast<std::size_t>(group.part[p])];
         const std::vector<int>& row = group.row[p];
-        const double a = group.made_with[p] = activation[part.place.column];
+        const double a = group.made_with[p] = activation[part.place().column];
         take(part, x, part.x);
-        part.hessian->clear();
-        part.cells->add_hessian({0.0, h, part.start}, part.x, solve::Curvature::kPositive,
-                                *part.hessian);
-        const solve::SymmetricBlocks& blocks = part.hessian->build_blocks();
-        for (int column = 0; column < blocks.nodes(); ++column)
-            for (int i = blocks.begin[static_cast<std::size_t>(column)];
-                 i < blocks.begin[static_cast<std::size_t>(column) + 1]; ++i)
-                hessian.add(row[static_cast<std::size_t>(blocks.row[static_cast<std::size_t>(i)])],
-                            row[static_cast<std::size_t>(column)],
-                            blocks.value[static_cast<std::size_t>(i)]);
-        part.chains->add_stiffness(part.x, a, row, hessian);
+        part.belly->add_stiffness(part.x, a, row, hessian);
     }
     const auto row_of = [&](int node) { return row_[static_cast<std::size_t>(node)]; };
     for (std::size_t i : group.binding) {

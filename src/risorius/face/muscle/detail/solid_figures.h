@@ -20,6 +20,17 @@ struct SolidFigures {
     double thickness_ratio = 1;  ///< of the middle section
 };
 
+/// The tissue around one side of a volume muscle, at rest.
+struct BesideSolid {
+    std::string muscle;
+    Side side = Side::kLeft;
+    int nodes = 0;          ///< nodes of the muscle inside of the tissue, not on bone
+    double tissue_pa = 0;   ///< mean shear modulus of the tissue at them
+    double softest_pa = 0;  ///< minimum of it
+    double muscle_pa = 0;   ///< shear modulus of the relaxed muscle across its fibres
+    double ratio() const { return nodes > 0 ? tissue_pa / muscle_pa : 0; }
+};
+
 /// State of a cell of a volume muscle, in the head frame.
 struct SolidCellState {
     std::array<int, 8> node{};  ///< of the volume muscles: the lower face round, then the upper one

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "risorius/face/muscle/detail/mesh_placement.h"
 #include "risorius/geom/polyline.h"
 #include "risorius/rig/muscle_force.h"
 #include "risorius/rig/muscle_path.h"
@@ -117,11 +118,14 @@ class Placer {
         for (const rig::SolidMuscle& solid : rig_.solids) {
             const rig::Muscle& muscle = muscle_of(solid);
             if (ring && (muscle.id == kUpperRing || muscle.id == kLowerRing)) continue;
-            lay(solid, muscle, Side::kLeft, muscle.paths);
+            const auto lay_one = [&](Side side, const std::vector<MusclePath>& paths) {
+                solid.mesh ? lay_mesh(solid, muscle, side, paths) : lay(solid, muscle, side, paths);
+            };
+            lay_one(Side::kLeft, muscle.paths);
             if (!muscle.paired) continue;
             std::vector<MusclePath> right;
             for (const MusclePath& path : muscle.paths) right.push_back(rig::mirrored(path));
-            lay(solid, muscle, Side::kRight, right);
+            lay_one(Side::kRight, right);
         }
         if (ring) lay_ring(*rig_.solid(kUpperRing), *rig_.solid(kLowerRing));
         return std::move(out_);
@@ -247,6 +251,39 @@ class Placer {
         }
         SolidPart made = part(solid, muscle, side, grid);
         for (int k = 0; k < grid.size(); ++k) made.node.push_back(first + k);
+        out_.parts.push_back(std::move(made));
+    }
+
+    void lay_mesh(const rig::SolidMuscle& solid, const rig::Muscle& muscle, Side side,
+                  const std::vector<MusclePath>& paths) {
+        std::vector<std::vector<Vec3>> courses;
+        for (const MusclePath& path : paths)
+            courses.push_back(course_of(head_, path, muscle.id, locator_).point);
+        PlacedMesh mesh =
+            place_mesh(head_, *solid.mesh, side, courses, "anatomy/solids/" + muscle.id + "/mesh");
+        const Hold from = hold_of(paths.front().front(), muscle.group),
+                   to = hold_of(paths.front().back(), muscle.group);
+        SolidPart made = part(solid, muscle, side, {});
+        for (Eigen::Index i = 0; i < mesh.nodes.rows(); ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            SolidNode node;
+            node.rest = mesh.nodes.row(i).transpose();
+            node.outward = locator_.column_at(node.rest).outward;
+            const double soft = jaw_.weight(node.rest), t = mesh.along[k];
+            node.jaw_fraction = (1 - t) * (from.bone ? from.jaw_fraction : soft) +
+                                t * (to.bone ? to.jaw_fraction : soft);
+            if (mesh.end[k] == PlacedMesh::End::kOrigin) tie(node, from);
+            if (mesh.end[k] == PlacedMesh::End::kInsertion) tie(node, to);
+            node.against_bone = muscle.group == "jaw" && !node.on_bone &&
+                                mesh.normals.row(i).dot(node.outward.transpose()) < -0.5;
+            made.node.push_back(static_cast<int>(out_.nodes.size()));
+            out_.nodes.push_back(node);
+        }
+        made.tets = std::move(mesh.tets);
+        made.fibres = std::move(mesh.fibres);
+        made.density = std::move(mesh.density);
+        made.along = std::move(mesh.along);
+        made.length_m = mesh.length_m;
         out_.parts.push_back(std::move(made));
     }
 

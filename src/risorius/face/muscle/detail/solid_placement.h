@@ -5,6 +5,7 @@
 /// The axes of a grid are m along the fibres from origin to insertion, n across the fibres, and o from bone to skin.
 /// Several paths form one sheet. The
 /// upper and the lower half of orbicularis oris share their nodes at the corners of the mouth and form one ring.
+/// A muscle with a mesh of tetrahedra has that in place of a grid (mesh_placement.h).
 #pragma once
 
 #include <string>
@@ -34,10 +35,19 @@ struct SolidPart {
     const rig::Muscle* muscle = nullptr;
     const rig::SolidMuscle* solid = nullptr;
     Side side = Side::kLeft;
-    int column = 0;   ///< of the activation vector
-    double f0_n = 0;  ///< maximum isometric force of the whole part, N
-    tissue::GridShape grid;
-    std::vector<int> node;  ///< index in SolidPlacement::nodes of each grid node
+    int column = 0;          ///< of the activation vector
+    double f0_n = 0;         ///< maximum isometric force of the whole part, N
+    tissue::GridShape grid;  ///< of a grid
+    std::vector<int>
+        node;  ///< index in SolidPlacement::nodes of each node, origin first, insertion last
+    /// Of a mesh, over the entries of `node`; without rows for a grid.
+    Tets tets = Tets(0, 4);
+    Points fibres = Points(0, 3);      ///< of each tetrahedron, unit vectors, head frame
+    std::vector<double> density = {};  ///< of its fibres, see PlacedMesh::density
+    std::vector<double> along = {};    ///< 0..1 of each node, on the line from origin to insertion
+    double length_m = 0;               ///< of that line
+
+    bool is_mesh() const { return tets.rows() > 0; }
 };
 
 struct SolidPlacement {

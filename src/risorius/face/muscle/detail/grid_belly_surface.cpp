@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The drawn surfaces of volume muscles: smooth closed surfaces over their grids.
+// The drawn surface of a grid of cells: smooth and closed.
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
-#include "risorius/face/muscle/detail/muscle_solids.h"
+#include "risorius/face/muscle/detail/grid_belly.h"
 #include "risorius/geom/polyline.h"
 
 namespace risorius::face {
 
 // A smooth tube through the border of the grid, twice as fine around and three times as fine along it, closed by fans at both ends.
-void MuscleSolids::add_surface(Part& part, MuscleSurfaces& surfaces) const {
+BellySurface GridBelly::surface(const std::array<bool, 2>& bone_ends) const {
     constexpr int kAround = 2, kAlong = 3;
-    const tissue::GridShape& grid = part.place.grid;
+    const tissue::GridShape& grid = place_.grid;
+    BellySurface out;
     std::vector<std::pair<int, int>> border;  // n, o; from inside to outside seen along the fibres
     for (int n = 0; n < grid.n; ++n) border.emplace_back(n, 0);
     for (int o = 1; o < grid.o; ++o) border.emplace_back(grid.n - 1, o);
@@ -57,8 +59,8 @@ void MuscleSolids::add_surface(Part& part, MuscleSurfaces& surfaces) const {
         for (const auto& [n, o] : border)
             entries.emplace_back(slabs * ring + end, grid.index(end == 0 ? 0 : grid.m - 1, n, o),
                                  1.0 / around);
-    part.surface.resize(slabs * ring + 2, grid.size());
-    part.surface.setFromTriplets(entries.begin(), entries.end());
+    out.weights.resize(slabs * ring + 2, grid.size());
+    out.weights.setFromTriplets(entries.begin(), entries.end());
     Triangles triangles(2L * ring * (slabs - 1) + 2L * ring, 3);
     long f = 0;
     for (int r = 0; r < ring; ++r) {
@@ -73,7 +75,7 @@ void MuscleSolids::add_surface(Part& part, MuscleSurfaces& surfaces) const {
     }
 
     // Along and across the fibres; tendon where a muscle with one meets bone
-    const Points rest = part.surface * part.rest;
+    const Points rest = out.weights * rest_;
     TexCoords fibre(rest.rows(), 2);
     std::vector<double> tendon(static_cast<std::size_t>(rest.rows()), 0.0);
     std::vector<double> length{0.0};
@@ -81,8 +83,7 @@ void MuscleSolids::add_surface(Part& part, MuscleSurfaces& surfaces) const {
         length.push_back(length.back() + (rest.middleRows(s * ring, ring).colwise().mean() -
                                           rest.middleRows((s - 1) * ring, ring).colwise().mean())
                                              .norm());
-    const rig::Muscle& muscle = *part.place.muscle;
-    const bool bone_ends[2] = {on_bone(part.place.node.front()), on_bone(part.place.node.back())};
+    const rig::Muscle& muscle = *place_.muscle;
     for (int s = 0; s < slabs; ++s) {
         double around_m = 0;
         for (int r = 0; r < ring; ++r) {
@@ -102,23 +103,10 @@ void MuscleSolids::add_surface(Part& part, MuscleSurfaces& surfaces) const {
         fibre.row(middle) = fibre.row(beside);
         tendon[static_cast<std::size_t>(middle)] = tendon[static_cast<std::size_t>(beside)];
     }
-    part.first_vertex = surfaces.rest.rows();
-    surfaces.add(
-        surfaces.of(muscle.id, muscle.paired ? std::optional(part.place.side) : std::nullopt,
-                    part.place.column),
-        rest, fibre, tendon, triangles);
-}
-
-void MuscleSolids::add_surfaces(MuscleSurfaces& surfaces) {
-    for (Part& part : parts_) add_surface(part, surfaces);
-}
-
-void MuscleSolids::place_surfaces(const Points& x, Points& vertices) const {
-    Points local;
-    for (const Part& part : parts_) {
-        take(part, x, local);
-        vertices.middleRows(part.first_vertex, part.surface.rows()) = part.surface * local;
-    }
+    out.triangles = std::move(triangles);
+    out.fibre = std::move(fibre);
+    out.tendon = std::move(tendon);
+    return out;
 }
 
 }  // namespace risorius::face
