@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -443,11 +444,18 @@ SolveReport solve_activations(const SolveOptions& options, const ProgressMonitor
         return face::Face(files.rig, files.mesh, face::quality_named(options.quality),
                           files.place());
     };
-    face::Face face = build();
+    // A search for units simulates two faces at once; they are built at once, too.
+    const bool two = as_units && ThreadLimit(options.threads).count() > 1;
+    std::array<std::optional<face::Face>, 2> built;
+    parallel_for(two ? 2 : 1, options.threads,
+                 [&](int i) { built[static_cast<std::size_t>(i)].emplace(build()); });
+    face::Face& face = *built[0];
     SolveReport report;
     FitTarget given;
     if (as_units) {
-        face::FaceTeam team(face, build, options.threads);
+        std::atomic<bool> taken = !two;
+        const auto next = [&] { return taken.exchange(true) ? build() : std::move(*built[1]); };
+        face::FaceTeam team(face, next, options.threads);
         given = solve_as_units(team, files, options, monitor, report);
     } else if (!options.landmarks.empty()) {
         given = landmarks_for_muscles(face, files, options);

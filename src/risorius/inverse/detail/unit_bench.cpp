@@ -101,55 +101,82 @@ std::vector<Eigen::VectorXd> UnitBench::moved(const std::vector<Eigen::VectorXd>
     return out;
 }
 
-UnitState UnitBench::state(const Eigen::VectorXd& weight, const std::vector<bool>& wanted,
-                           const ProgressMonitor& monitor) const {
-    std::vector<track::Expansion> changes;
+UnitBench::Inputs UnitBench::inputs_of(const Eigen::VectorXd& weight,
+                                       const std::vector<bool>& wanted) const {
+    Inputs out;
     std::set<int> columns;
     std::set<track::Kinematic> channels;
     for (long s = 0; s < sources_.count(); ++s) {
-        changes.push_back(sources_.change_of(static_cast<std::size_t>(s), weight[s]));
+        track::Expansion& change =
+            out.changes.emplace_back(sources_.change_of(static_cast<std::size_t>(s), weight[s]));
         if (!wanted.empty() && !wanted[static_cast<std::size_t>(s)]) {
-            changes.back().excitation.setZero();
-            changes.back().kinematic = {};
+            change.excitation.setZero();
+            change.kinematic = {};
         }
-        for (long c = 0; c < changes.back().excitation.size(); ++c)
-            if (changes.back().excitation[c] != 0) columns.insert(static_cast<int>(c));
-        for (std::size_t k = 0; k < changes.back().kinematic.size(); ++k)
-            if (changes.back().kinematic[k] != 0) channels.insert(static_cast<track::Kinematic>(k));
+        for (long c = 0; c < change.excitation.size(); ++c)
+            if (change.excitation[c] != 0) columns.insert(static_cast<int>(c));
+        for (std::size_t k = 0; k < change.kinematic.size(); ++k)
+            if (change.kinematic[k] != 0) channels.insert(static_cast<track::Kinematic>(k));
     }
-    const std::vector<int> column_list(columns.begin(), columns.end());
-    const std::vector<track::Kinematic> channel_list(channels.begin(), channels.end());
-    UnitState out{weight,
-                  {},
-                  Eigen::MatrixXd::Zero(3 * static_cast<long>(vertices_.size()), sources_.count())};
-    // By each number of the drive. Each of two tasks does every other column; the second one does the channels, too.
-    const auto count = static_cast<long>(column_list.size() + channel_list.size());
-    Eigen::MatrixXd by(out.way.rows(), count);
+    out.columns.assign(columns.begin(), columns.end());
+    out.channels.assign(channels.begin(), channels.end());
+    return out;
+}
+
+Eigen::MatrixXd UnitBench::derivatives(face::Face& face, std::span<const int> columns,
+                                       std::span<const track::Kinematic> channels) const {
+    const std::vector<Points> fields = face.statics().sensitivities(columns, channels);
+    Eigen::MatrixXd out(3 * static_cast<long>(vertices_.size()), static_cast<long>(fields.size()));
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        const Points own = fields[i](vertices_, Eigen::all);
+        out.col(static_cast<long>(i)) = Eigen::Map<const Eigen::VectorXd>(own.data(), own.size());
+    }
+    return out;
+}
+
+Eigen::MatrixXd UnitBench::by_sources(const Inputs& inputs, const Eigen::MatrixXd& by) const {
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(by.rows(), sources_.count());
+    for (std::size_t s = 0; s < inputs.changes.size(); ++s) {
+        auto way = out.col(static_cast<long>(s));
+        for (std::size_t i = 0; i < inputs.columns.size(); ++i)
+            way += inputs.changes[s].excitation[inputs.columns[i]] * by.col(static_cast<long>(i));
+        for (std::size_t i = 0; i < inputs.channels.size(); ++i)
+            way += inputs.changes[s].kinematic[static_cast<std::size_t>(inputs.channels[i])] *
+                   by.col(static_cast<long>(inputs.columns.size() + i));
+    }
+    return out;
+}
+
+UnitState UnitBench::Walk::state(const Eigen::VectorXd& weight, const std::vector<bool>& wanted,
+                                 const ProgressMonitor& monitor) {
+    UnitState out{weight, moved(weight, monitor), {}};
+    const Inputs inputs = bench_.inputs_of(weight, wanted);
+    out.way = bench_.by_sources(
+        inputs, bench_.derivatives(bench_.team_.first(), inputs.columns, inputs.channels));
+    monitor.throw_if_stopped();
+    return out;
+}
+
+UnitState UnitBench::state(const Eigen::VectorXd& weight, const ProgressMonitor& monitor) const {
+    const Inputs inputs = inputs_of(weight, {});
+    UnitState out{weight, {}, {}};
+    // Each of two tasks does every other column; the second one does the channels, too.
+    const std::size_t half = inputs.columns.size() / 2;
+    const std::span<const int> columns(inputs.columns);
+    std::array<Eigen::MatrixXd, 2> parts;
     team_.each(2, [&](int part, face::Face& face) {
         go_to(face, weight, monitor);
-        if (part == 0) out.moved = displacement(face.pose().vertices);
-        const auto half = static_cast<long>(column_list.size()) / 2;
-        const long first = part == 0 ? 0 : half,
-                   last = part == 0 ? half : static_cast<long>(column_list.size());
-        const std::vector<Points> fields = face.statics().sensitivities(
-            std::span(column_list)
-                .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first)),
-            std::span(channel_list).first(part == 0 ? 0 : channel_list.size()));
-        for (std::size_t i = 0; i < fields.size(); ++i) {
-            const Points own = fields[i](vertices_, Eigen::all);
-            by.col(first + static_cast<long>(i)) =
-                Eigen::Map<const Eigen::VectorXd>(own.data(), own.size());
+        if (part == 0) {
+            out.moved = displacement(face.pose().vertices);
+            parts[0] = derivatives(face, columns.first(half), {});
+        } else {
+            parts[1] = derivatives(face, columns.subspan(half), inputs.channels);
         }
         monitor.throw_if_stopped();
     });
-    for (std::size_t s = 0; s < changes.size(); ++s) {
-        auto way = out.way.col(static_cast<long>(s));
-        for (std::size_t i = 0; i < column_list.size(); ++i)
-            way += changes[s].excitation[column_list[i]] * by.col(static_cast<long>(i));
-        for (std::size_t i = 0; i < channel_list.size(); ++i)
-            way += changes[s].kinematic[static_cast<std::size_t>(channel_list[i])] *
-                   by.col(static_cast<long>(column_list.size() + i));
-    }
+    Eigen::MatrixXd by(parts[0].rows(), parts[0].cols() + parts[1].cols());
+    by << parts[0], parts[1];
+    out.way = by_sources(inputs, by);
     return out;
 }
 
@@ -235,7 +262,7 @@ std::vector<UnitState> UnitBench::known(const scene::RigFiles& files, const std:
                 monitor.report(kShapes + (1 - kShapes) * static_cast<double>(i) /
                                              static_cast<double>(usual.size()),
                                "usual expressions");
-                keep(state(usual[i], {}, {.progress = {}, .stopped = monitor.stopped}), made);
+                keep(state(usual[i], {.progress = {}, .stopped = monitor.stopped}), made);
             }
             return made;
         },

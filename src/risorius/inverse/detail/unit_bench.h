@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "risorius/core/progress_monitor.h"
@@ -30,10 +31,8 @@ class UnitBench {
     std::vector<Eigen::VectorXd> moved_in_turn(const std::vector<Eigen::VectorXd>& weights,
                                                const ProgressMonitor& monitor) const;
 
-    /// The equilibrium under weights, with the derivatives of the points by the weights of the `wanted` sources; empty: of all. Those of
-    /// the others are 0. Throws Interrupted.
-    UnitState state(const Eigen::VectorXd& weight, const std::vector<bool>& wanted,
-                    const ProgressMonitor& monitor) const;
+    /// The equilibrium under weights, with the derivatives of the points by the weights of all sources. Throws Interrupted.
+    UnitState state(const Eigen::VectorXd& weight, const ProgressMonitor& monitor) const;
 
     /// What is known of a rig before anything is sought. First the face at rest with the unit shapes: what each source moves at part of its
     /// weight, over that part. Both sides of a unit are simulated at once, and what they move is shared between them. Then expressions
@@ -49,8 +48,9 @@ class UnitBench {
       public:
         explicit Walk(const UnitBench& bench) : bench_(bench) {}
         Eigen::VectorXd moved(const Eigen::VectorXd& weight, const ProgressMonitor& monitor);
-        /// To be called when something else has used the bench: the next equilibrium is sought from rest.
-        void restart() { begun_ = false; }
+        /// The same with the derivatives of the points by the weights of the `wanted` sources. Those of the others are 0.
+        UnitState state(const Eigen::VectorXd& weight, const std::vector<bool>& wanted,
+                        const ProgressMonitor& monitor);
 
       private:
         const UnitBench& bench_;
@@ -58,6 +58,17 @@ class UnitBench {
     };
 
   private:
+    /// What changes with the weights of the wanted sources (empty: all), and the numbers of the drive that take part.
+    struct Inputs {
+        std::vector<track::Expansion> changes;
+        std::vector<int> columns;
+        std::vector<track::Kinematic> channels;
+    };
+    Inputs inputs_of(const Eigen::VectorXd& weight, const std::vector<bool>& wanted) const;
+    /// Of the points by numbers of the drive, in the equilibrium of a face.
+    Eigen::MatrixXd derivatives(face::Face& face, std::span<const int> columns,
+                                std::span<const track::Kinematic> channels) const;
+    Eigen::MatrixXd by_sources(const Inputs& inputs, const Eigen::MatrixXd& by) const;
     void go_to(face::Face& face, const Eigen::VectorXd& weight,
                const ProgressMonitor& monitor) const;
     /// From where the face is.

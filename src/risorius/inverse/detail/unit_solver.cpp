@@ -211,8 +211,7 @@ class UnitSolver {
         for (int round = 0; round < kCloseChoices && least > kNearEnough * options_.least_gain_m;
              ++round) {
             w = best.weight;
-            add_state(w, frame);
-            walk.restart();
+            add_state(w, frame, walk);
             const double last_least = least;
             choose();
             if (least > kGain * last_least) break;
@@ -232,7 +231,7 @@ class UnitSolver {
 
     /// Adds the equilibrium under weights to the model with its derivatives: by the sources that are used, and by those of which a little
     /// would help most. Of all others the model has good ones.
-    void add_state(const Eigen::VectorXd& w, long frame) {
+    void add_state(const Eigen::VectorXd& w, long frame, UnitBench::Walk& walk) {
         const UnitModel::Tangent now = model_.tangent(w), shown = tangent(frame, w);
         const Eigen::VectorXd left = target_.col(frame) - shown.at_zero - shown.way * w;
         std::vector<std::pair<double, std::size_t>> help;
@@ -244,7 +243,7 @@ class UnitSolver {
         std::vector<bool> wanted = active_;
         for (std::size_t i = 0; i < std::min(help.size(), kRivals); ++i)
             wanted[help[i].second] = true;
-        UnitState state = weighted(bench_.state(w, wanted, quiet()));
+        UnitState state = weighted(walk.state(w, wanted, quiet()));
         for (std::size_t s = 0; s < wanted.size(); ++s)
             if (!wanted[s]) state.way.col(static_cast<long>(s)) = now.way.col(static_cast<long>(s));
         model_.add(std::move(state));
