@@ -73,6 +73,20 @@ TEST(Registry, EveryGridHasItsStepOrNone) {
               "mine.json:/runs/0/steps_s: expected as many steps as \"grids\", 11, found 2");
 }
 
+/// An experiment of minutes does not end in a message about its last lines.
+TEST(Registry, ListsOfChecksAreReadBeforeAnythingIsSimulated) {
+    Json json = sample("5");
+    json["checks"] = Json::parse(R"([{"measured": "anything", "low": 2, "high": 1}])");
+    EXPECT_EQ(message_of([&] { read_only(JsonCursor::from_json(json, "mine.json")); }),
+              "mine.json:/checks/0/low: expected at most \"high\", which is 1, found 2");
+    json["checks"] = Json::array();
+    json["claims"] =
+        Json::parse(R"([{"says": "It falls.", "finds": "It falls.", "verdict": "so"}])");
+    EXPECT_EQ(
+        message_of([&] { read_only(JsonCursor::from_json(json, "mine.json")); }).substr(0, 47),
+        "mine.json:/claims/0/verdict: expected one of \"a");
+}
+
 TEST(Registry, ChecksNameWhatWasMeasured) {
     Json json = sample("5");
     json["cases"] = Json::array({json["cases"][1]});

@@ -118,5 +118,22 @@ TEST(CheckFiles, FindsWhatRenderWouldRefuse) {
                   ": expected pixels of the whole picture, found the end of the file");
 }
 
+TEST(CheckFiles, APulledVertexIsOneThatSoftTissueMoves) {
+    const TemporaryFolder folder;
+    Json script = JsonCursor::read_file(kRoot / "samples/smile/script.json").json();
+    script["rig"] = (kRoot / "rigs/adult/rig.json").string();
+    const auto error_of = [&](int vertex) {
+        script["pulls"] = Json::parse(R"([{"stiffness_n_per_m": 100,
+                                           "keys_mm": [[0, [0, 0, 0]], [0.1, [0, 0, 5]]]}])");
+        script["pulls"][0]["vertex"] = vertex;
+        std::ofstream(folder / "script.json") << script.dump();
+        return check_file(folder / "script.json").error;
+    };
+    EXPECT_EQ(error_of(4235), "") << "the left corner of the mouth";
+    EXPECT_EQ(error_of(5301), (folder / "script.json").string() +
+                                  ":/pulls/0/vertex: expected a vertex of the mesh that soft "
+                                  "tissue moves, found 5301");
+}
+
 }  // namespace
 }  // namespace risorius::cli

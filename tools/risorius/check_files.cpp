@@ -7,6 +7,8 @@
 #include "risorius/animate/render_job.h"
 #include "risorius/animate/render_request.h"
 #include "risorius/core/data_folder.h"
+#include "risorius/face/diagnostics.h"
+#include "risorius/face/face.h"
 #include "risorius/figures/registry.h"
 #include "risorius/fitting/landmark_file.h"
 #include "risorius/fitting/part_guess.h"
@@ -77,6 +79,18 @@ void note_idle_channels(const track::ScriptDescription& script, CheckResult& res
 }
 
 /// Reads and checks all that `risorius render` reads and checks before it draws.
+/// Only a face knows which vertices soft tissue moves.
+void check_pulled_vertices(const JsonCursor& json, const animate::RenderJob& job) {
+    if (job.script.pulls.empty()) return;
+    const scene::RigFiles& files = job.rig->files;
+    const face::Face face(files.rig, files.mesh, job.quality, files.place());
+    const std::vector<char> soft = face.diagnostics().soft_vertices();
+    for (std::size_t i = 0; i < job.script.pulls.size(); ++i)
+        if (!soft[static_cast<std::size_t>(job.script.pulls[i].vertex)])
+            json.at("pulls").items()[i].at("vertex").fail(
+                "a vertex of the mesh that soft tissue moves");
+}
+
 void check_script(const JsonCursor& json, CheckResult& result) {
     animate::RenderRequest request;
     request.script = result.file;
@@ -92,6 +106,7 @@ void check_script(const JsonCursor& json, CheckResult& result) {
     note_idle_channels(job.script, result);
     const scene::RigFiles& files = job.rig->files;
     rig::place_head(files.rig, files.mesh, files.place());
+    check_pulled_vertices(json, job);
 }
 
 void check_landmarks(const fs::path& file, CheckResult& result) {

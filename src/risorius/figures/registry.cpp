@@ -122,6 +122,7 @@ FigureResult run_figure(const JsonCursor& experiment, const RunOptions& options)
     const auto kind = std::find_if(kind_table().begin(), kind_table().end(),
                                    [&](const NamedKind& k) { return k.name == name; });
     Outcome outcome;
+    Measurements::check_lists(experiment);
     kind->run(experiment, options, outcome);
 
     FigureResult& figure = outcome.figure;

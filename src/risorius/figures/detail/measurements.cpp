@@ -31,6 +31,11 @@ void Measurements::add(const std::string& name, const std::string& unit, double 
 }
 
 const Measurements::Measurement& Measurements::named(const JsonCursor& name) const {
+    if (before_the_run_) {
+        static const Measurement any{"any", "", 1};
+        name.string();
+        return any;
+    }
     std::vector<std::string_view> names;
     for (const Measurement& m : list_) names.push_back(m.name);
     const std::string found = name.one_of(names);
@@ -116,6 +121,14 @@ std::vector<Claim> Measurements::claims(const JsonCursor& experiment) const {
         claims.push_back(std::move(claim));
     }
     return claims;
+}
+
+void Measurements::check_lists(const JsonCursor& experiment) {
+    Measurements any;
+    any.before_the_run_ = true;
+    any.check(experiment);
+    any.claims(experiment);
+    any.watched(experiment);
 }
 
 Table Measurements::table() const {

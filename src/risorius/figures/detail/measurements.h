@@ -32,6 +32,9 @@ class Measurements {
     std::vector<Claim> claims(const JsonCursor& experiment) const;
     std::vector<Check> watched(const JsonCursor& experiment) const;
 
+    /// Reads the three lists before anything is measured. Throws Error for what is wrong whatever the names of the measurements are.
+    static void check_lists(const JsonCursor& experiment);
+
     /// Returns a table with one row per measurement.
     Table table() const;
 
@@ -43,6 +46,7 @@ class Measurements {
     const Measurement& named(const JsonCursor& name) const;
     Check read_check(const JsonCursor& json) const;
     std::vector<Measurement> list_;
+    bool before_the_run_ = false;
 };
 
 }  // namespace risorius::figures
