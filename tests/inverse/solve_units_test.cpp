@@ -50,6 +50,23 @@ struct Sitter {
     }
 };
 
+/// A table that cannot be read is told before the minute of simulation that finds out what the units do.
+TEST(SolveUnits, AWrongTableIsToldBeforeAnythingIsSimulated) {
+    const TemporaryFolder folder;
+    const fs::path table = folder.path() / "seen.tsv";
+    std::ofstream(table) << "time_s\tch_l.x_mm\tch_l.y_mm\tch_l.z_mm\n0\t1\t2\n";
+    std::vector<std::string> work;
+    ProgressMonitor monitor;
+    monitor.progress = [&](double, const std::string& what) { work.push_back(what); };
+    EXPECT_THROW(solve_activations({.rig = kSmiling,
+                                    .out = folder.path() / "out",
+                                    .landmarks = table,
+                                    .with = {"pressure"}},
+                                   monitor),
+                 Error);
+    for (const std::string& what : work) EXPECT_EQ(what, "building the face");
+}
+
 TEST(SolveUnits, ASmileIsNamedAndHasFewKeys) {
     Sitter sitter;
     auto& [files, face, points] = sitter;

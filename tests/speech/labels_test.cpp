@@ -183,14 +183,16 @@ TEST(Labels, WhatIsWrittenIsReadAgain) {
               "visemes 0-19200:X 19200-23218:A 23218-30");
 }
 
-TEST(Utterances, HaveNoMorePhonesAndHoursThanMemoryAndTimeAllow) {
+TEST(Utterances, HaveNoMorePhonesAndMinutesThanMemoryAndTimeAllow) {
     const auto complaint = [](const Utterance& utterance) {
         return message_of([&] { check_utterance(utterance, standard_phones(), "here"); });
     };
-    EXPECT_EQ(complaint(utterance_of(std::vector<Timed>(99999, {"m", 0.1}))),
-              "here:/phones: expected at most 100000 phones, found 100001");
-    EXPECT_EQ(complaint(utterance_of({{"m", 7 * 3600}}, 1)),
-              "here:/samples: expected at most two hours of sound, found 7.000555555555556 hours");
+    EXPECT_EQ(complaint(utterance_of(std::vector<Timed>(29999, {"m", 0.05}))),
+              "here:/phones: expected at most 30000 phones, found 30001");
+    EXPECT_EQ(complaint(utterance_of({{"_", 7 * 3600}}, 1)).substr(0, 61),
+              "here:/samples: expected at most 30 minutes of sound, found 42");
+    EXPECT_EQ(complaint(utterance_of({{"m", 61}})),
+              "here:/phones/1/end: expected a phone of at most 60 s, found 61 s");
 }
 
 TEST(Utterances, AreWrittenAndReadWithTheSameSamples) {

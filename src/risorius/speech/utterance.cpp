@@ -75,10 +75,11 @@ void check_utterance(const Utterance& utterance, const PhoneTable& table,
     if (utterance.phones.size() > kMostPhones)
         throw Error(place + ":/phones", "at most " + std::to_string(kMostPhones) + " phones",
                     std::to_string(utterance.phones.size()));
-    const double hours = utterance.seconds(utterance.samples) / 3600;
-    if (hours > kMostHours)
-        throw Error(place + ":/samples", "at most two hours of sound",
-                    format_number(hours) + " hours");
+    const double minutes = utterance.seconds(utterance.samples) / 60;
+    if (minutes > kMostMinutes)
+        throw Error(place + ":/samples",
+                    "at most " + format_number(kMostMinutes) + " minutes of sound",
+                    format_number(minutes));
     std::int64_t before = utterance.phones.front().start;
     for (std::size_t i = 0; i < utterance.phones.size(); ++i) {
         const Phone& phone = utterance.phones[i];
@@ -91,6 +92,10 @@ void check_utterance(const Utterance& utterance, const PhoneTable& table,
         if (phone.end <= phone.start)
             throw Error(at + "/end", "a sample after " + std::to_string(phone.start),
                         std::to_string(phone.end));
+        if (const double long_s = utterance.seconds(phone.end - phone.start);
+            !phone.is_pause() && long_s > kLongestPhone_s)
+            throw Error(at + "/end", "a phone of at most " + format_number(kLongestPhone_s) + " s",
+                        format_number(long_s) + " s");
         if (phone.end > utterance.samples)
             throw Error(at + "/end",
                         "a sample of the sound, which has " + std::to_string(utterance.samples),

@@ -73,9 +73,9 @@ Utterance read_utterance(const std::filesystem::path& file, const PhoneTable& ta
 /// The text of the file. A path is written as it is.
 std::string utterance_text(const Utterance& utterance);
 
-/// An hour of fast speech.
-inline constexpr std::size_t kMostPhones = 100000;
-inline constexpr double kMostHours = 2;
+/// Half an hour of fast speech, and more than anybody holds a sound.
+inline constexpr std::size_t kMostPhones = 30000;
+inline constexpr double kMostMinutes = 30, kLongestPhone_s = 60;
 
 /// Throws Error with `place` unless the times are in order, touch each other and lie within the sound, and all symbols are known.
 void check_utterance(const Utterance& utterance, const PhoneTable& table, const std::string& place);
