@@ -100,10 +100,8 @@ std::vector<SolidMuscle> read_solid_muscles(JsonCursor json, const MuscleTable& 
             for (const char* key : {"width_mm", "thickness_mm", "ends", "cells"})
                 keys.push_back(key);
         item.allow_keys(keys);
-        SolidMuscle solid{.muscle = id,
-                          .width_m = muscle.width_m,
-                          .thickness_m = muscle.thickness_m,
-                          .mesh = {}};
+        SolidMuscle solid{
+            .muscle = id, .width_m = muscle.width_m, .thickness_m = muscle.thickness_m, .mesh = {}};
         if (const auto v = item.find("strength")) solid.strength = v->number({0, 100});
         if (const auto v = item.find("mesh"))
             solid.mesh = read_solid_mesh(*v, muscle);
