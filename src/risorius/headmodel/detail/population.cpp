@@ -17,7 +17,7 @@ constexpr double kYoungest = 20, kOldest = 75;  ///< years
 constexpr unsigned kHairSequence = 0x5eed0000, kSkinSequence = 0x5c1d0000;
 
 /// Where a seed stands among all persons: seeds in a row take turns in sex and fill three directions, 0..1, evenly, so that few
-/// of them share age, ancestry and hair. The steps are the fractions of square roots, whose multiples are spread most evenly.
+/// of them share age, ancestry and hair. The steps are square roots and the golden ratio: the fractions of their multiples are spread evenly.
 struct Place {
     bool woman;
     double age, ancestry, hair;

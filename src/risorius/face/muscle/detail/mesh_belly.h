@@ -5,10 +5,10 @@
 ///   E = shape (tissue/tet_solid.h) + volume around nodes (tissue/node_volumes.h) + stiffness along fibres (tissue/along_fibres.h)
 ///     + fibres (muscle/fibre_tets.h)
 ///
-/// The fibres have the specific tension F0 L / V times their density: a prism of length L and volume V with fibres along it pulls with F0,
-/// and each section of a spindle has the same fibres. They act
-/// without regard to their speed, as the chains of a grid do. A part of the resistance to a change of volume is that of each
-/// tetrahedron, kOwnVolume times the specific tension: it keeps neighbours from exchanging volume when the fibres pull.
+/// The fibres have the specific tension F0 L / V times their density: a prism of length L and volume V with fibres along it pulls
+/// with F0, and each section of a spindle has the same fibres. Their force does not depend on their speed, as that of the chains of
+/// a grid does not. A part of the resistance to a change of volume is that of each tetrahedron, kOwnVolume times the specific
+/// tension: it keeps neighbours from exchanging volume when the fibres pull.
 #pragma once
 
 #include <memory>
