@@ -103,6 +103,46 @@ TEST(Locks, WhiteHairsComeWithAgeUnlessTheirShareIsGiven) {
     EXPECT_EQ(white_share(appearance), 0.05);
 }
 
+TEST(Locks, AreAsLongAndPartedWhereTheAppearanceSays) {
+    HairyHead head;
+    const auto lowest = [&](double length) {
+        head.scene.appearance.lock_length = length;
+        return places_of(hair_on(head.scene, "bob"), head.scene.rest).col(1).minCoeff();
+    };
+    const double usual = lowest(1);
+    EXPECT_NEAR(lowest(0.7), usual + 0.027, 0.005);
+    EXPECT_NEAR(lowest(1.4), usual - 0.036, 0.005);
+    const auto reach = [&](double length) {
+        head.scene.appearance.lock_length = length;
+        return places_of(hair_on(head.scene, "afro"), head.scene.rest).rowwise().norm().maxCoeff();
+    };
+    EXPECT_GT(reach(1.4), reach(1) + 0.008);
+    head.scene.appearance.lock_length = 1;
+    // A parting on the other side leaves more locks on this one.
+    const auto on_left = [&](double parting) {
+        head.scene.appearance.parting = parting;
+        const Points places = places_of(hair_on(head.scene, "short_parted"), head.scene.rest);
+        return static_cast<double>((places.col(0).array() > 0).count()) /
+               static_cast<double>(places.rows());
+    };
+    EXPECT_GT(on_left(-1), on_left(1) + 0.05);
+    const Points straight = places_of(hair_on(head.scene, "bob"), head.scene.rest);
+    head.scene.appearance.lock_wave = 1;
+    EXPECT_NE(straight, places_of(hair_on(head.scene, "bob"), head.scene.rest));
+}
+
+TEST(Locks, BrowsAreDarkerThanBlondHairAndAsDarkAsOtherHair) {
+    Appearance appearance;
+    appearance.grey_hair = 0;
+    for (const Vec3& tone :
+         {Vec3(0.06, 0.05, 0.05), Vec3(0.22, 0.15, 0.10), Vec3(0.55, 0.54, 0.53)}) {
+        appearance.hair_tone = tone;
+        EXPECT_LT((hair_tone_at(appearance) - tone).norm(), 0.03) << tone.transpose();
+    }
+    appearance.hair_tone = {0.62, 0.48, 0.30};
+    EXPECT_LT(hair_tone_at(appearance).x(), 0.45);
+}
+
 TEST(Locks, TheForeheadStaysFreeOfAShortStyle) {
     const HairyHead head;
     const Points places = places_of(hair_on(head.scene, "crop"), head.scene.rest);

@@ -13,6 +13,7 @@
 #include "risorius/core/error.h"
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
+#include "risorius/core/known_names.h"
 #include "risorius/core/read_file.h"
 #include "risorius/core/toolkit_record.h"
 #include "risorius/figures/detail/experiment_kind.h"
@@ -56,14 +57,12 @@ bool is_several(const FigureOptions& options) {
 
 [[noreturn]] void fail_unknown(const std::string& id, const std::vector<FigureEntry>& entries) {
     std::string expected = "all, a file that ends in .json, or one of";
-    std::vector<std::string_view> known{"all"};
+    std::vector<std::string> known{"all"};
     for (const FigureEntry& entry : entries) {
         expected += " " + entry.id;
         known.push_back(entry.id);
     }
-    const std::string near = nearest_name(id, known);
-    if (!near.empty()) expected += " (did you mean \"" + near + "\"?)";
-    throw Error("figure", expected, "\"" + id + "\"");
+    throw Error("figure", expected + did_you_mean(id, known), "\"" + id + "\"");
 }
 
 std::vector<Job> jobs_of(const FigureOptions& options) {

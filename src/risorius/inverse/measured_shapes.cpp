@@ -11,16 +11,12 @@
 #include "risorius/core/error.h"
 #include "risorius/core/file_reader.h"
 #include "risorius/core/json_cursor.h"
+#include "risorius/core/known_names.h"
 #include "risorius/rig/expression_drive.h"
 
 namespace risorius::inverse {
 
 namespace {
-
-std::string did_you_mean(const std::string& name, const std::vector<std::string>& names) {
-    const std::string near = nearest_name(name, {names.begin(), names.end()});
-    return near.empty() ? "" : " (did you mean \"" + near + "\"?)";
-}
 
 /// The content of the file.
 struct ShapesFile {

@@ -72,6 +72,10 @@ struct Appearance {
     unsigned seed = 1;
     /// A name of hair_style_names(): locks over the scalp; "shaven" has none
     std::string hair_style = "shaven";
+    double lock_length = 1.0;  ///< length of the locks as a multiple of the style's
+    double lock_wave = 0.0;    ///< 0..1, waves beside those of the style
+    double parting =
+        1.0;  ///< place of the parting as a multiple of the style's; below 0: on the other side
     std::string hairline_form = "even";  ///< a name of hairline_form_names()
     double age_lines = 0.0;              ///< 0..1, strength of the lines that come with age
     std::optional<double> grey_hair;     ///< 0..1, share of white hairs; unset: as comes with age

@@ -10,6 +10,7 @@
 #include "risorius/core/existing_file.h"
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
+#include "risorius/core/known_names.h"
 #include "risorius/core/output_set.h"
 #include "risorius/rig/calibration.h"
 
@@ -102,6 +103,9 @@ void visit_fields(AppearanceDescription& appearance, Visit visit) {
                                                           "m",    "high",  "receding"};
     visit("hair_style", appearance.hair_style, kHairStyles);
     visit("hairline_form", appearance.hairline_form, kHairlines);
+    visit("lock_length", appearance.lock_length, Range{0.5, 1.5});
+    visit("lock_wave", appearance.lock_wave, Range{0, 1});
+    visit("parting", appearance.parting, Range{-2, 2});
     visit("grey_hair", appearance.grey_hair, Range{0, 1});
     visit("age_lines", appearance.age_lines, Range{0, 1});
     static const std::vector<std::string_view> kBeards{"stubble", "full", "moustache", "goatee",
@@ -388,15 +392,10 @@ RigDescription read_rig(const JsonCursor& json) {
                 strength->at(muscle).fail("a muscle of the muscle bands", "\"" + muscle + "\"");
         }
     for (const auto& [id, landmark] : rig.landmarks)
-        if (!rig.atlas.landmark(id)) {
-            std::vector<std::string_view> known;
-            for (const AtlasLandmark& l : rig.atlas.landmarks) known.push_back(l.id);
-            const std::string near = nearest_name(id, known);
+        if (!rig.atlas.landmark(id))
             throw Error(landmarks.place() + "/" + id,
-                        near.empty() ? "a landmark of the atlas"
-                                     : "a landmark of the atlas (did you mean \"" + near + "\"?)",
+                        "a landmark of the atlas" + did_you_mean(id, rig.atlas.landmark_ids()),
                         "\"" + id + "\"");
-        }
 
     if (const auto calibrated = json.find("calibrated_on")) {
         read_calibration(*calibrated);
@@ -481,8 +480,9 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     json["appearance"] = fields_of(rig.appearance);
     // Rigs that ask for no hair and no lines stay as they were before there were any.
     const Json usual = fields_of(AppearanceDescription{});
-    for (const char* key : {"hair_style", "hairline_form", "age_lines", "beard_form",
-                            "brow_density", "brow_width", "skin_gloss", "garment", "garment_tone"})
+    for (const char* key :
+         {"hair_style", "lock_length", "lock_wave", "parting", "hairline_form", "age_lines",
+          "beard_form", "brow_density", "brow_width", "skin_gloss", "garment", "garment_tone"})
         if (json["appearance"][key] == usual[key]) json["appearance"].erase(key);
     if (const auto source = options.standard_folder / kCalibrationFile;
         std::filesystem::exists(source))

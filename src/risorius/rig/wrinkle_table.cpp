@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "risorius/rig/detail/known_landmark.h"
+
 namespace risorius::rig {
 
 namespace {
@@ -31,13 +33,6 @@ void read_optional(const JsonCursor& json, const char* key, bool& out) {
 }
 
 using Ids = std::vector<std::string>;
-
-std::string known_landmark(const JsonCursor& json, const Ids& known) {
-    const std::string id = json.string();
-    if (std::find(known.begin(), known.end(), id) == known.end())
-        json.fail("a landmark of the atlas");
-    return id;
-}
 
 // A plain number is a length in mm, or an angle.
 WrinkleBound read_bound(const JsonCursor& json, const Ids& known) {

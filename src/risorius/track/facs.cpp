@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/track/facs.h"
 
+#include "risorius/core/known_names.h"
+
 namespace risorius::track {
 
 namespace {
-
-std::string did_you_mean(const std::string& name, const std::vector<std::string_view>& known) {
-    const std::string near = nearest_name(name, known);
-    return near.empty() ? "" : " (did you mean " + in_quotes(near) + "?)";
-}
 
 double& value(KinematicValues& values, Kinematic k) { return values[static_cast<std::size_t>(k)]; }
 
@@ -165,7 +162,7 @@ MuscleFraction muscle_named(const JsonCursor& place, const std::string& name,
     const SidedName sided = split_side(name);
     const MuscleChannel* muscle = channels.find(sided.id);
     if (!muscle) {
-        std::vector<std::string_view> known;
+        std::vector<std::string> known;
         for (const MuscleChannel& m : channels.muscles) known.push_back(m.id);
         place.fail("a muscle of the rig" + did_you_mean(sided.id, known), in_quotes(name));
     }
@@ -192,7 +189,7 @@ UnitUse unit_named(const JsonCursor& place, const std::string& name, const FacsT
         if (facs.find(name + ".l") && facs.find(name + ".r"))
             place.fail(in_quotes(name + ".l") + " or " + in_quotes(name + ".r"), in_quotes(name));
         // One unit number is not likely to be a misspelling of another.
-        std::vector<std::string_view> known;
+        std::vector<std::string> known;
         if (!is_unit_number(split_side(name).id))
             for (const ActionUnit& u : facs.units) known.push_back(u.id);
         place.fail("an action unit of the rig's FACS table" + did_you_mean(name, known),

@@ -27,7 +27,10 @@ const std::pair<double IdentityHair::*, Range> kBlendedHair[] = {
     {&IdentityHair::age_lines, kShareRange},
     {&IdentityHair::brow_density, kBrowDensityRange},
     {&IdentityHair::brow_width, kBrowWidthRange},
-    {&IdentityHair::skin_gloss, kSkinGlossRange}};
+    {&IdentityHair::skin_gloss, kSkinGlossRange},
+    {&IdentityHair::lock_length, kLockLengthRange},
+    {&IdentityHair::lock_wave, kShareRange},
+    {&IdentityHair::parting, kPartingRange}};
 constexpr std::string Identity::*kTones[] = {&Identity::skin, &Identity::iris, &Identity::hair};
 
 bool makes_uneven(const std::string& parameter) {

@@ -14,8 +14,9 @@ namespace risorius::headmodel {
 
 const std::vector<std::string_view>& identity_hair_keys() {
     static const std::vector<std::string_view> keys{
-        "hair_style",   "hairline_form", "grey_hair",  "age_lines", "seed",        "beard_form",
-        "brow_density", "brow_width",    "skin_gloss", "garment",   "garment_tone"};
+        "hair_style",   "hairline_form", "grey_hair",  "age_lines",  "seed",
+        "beard_form",   "brow_density",  "brow_width", "skin_gloss", "garment",
+        "garment_tone", "lock_length",   "lock_wave",  "parting"};
     return keys;
 }
 
@@ -31,6 +32,9 @@ IdentityHair read_identity_hair(const JsonCursor& json) {
         hair.brow_density = json.at("brow_density").number(kBrowDensityRange);
     if (json.has("brow_width")) hair.brow_width = json.at("brow_width").number(kBrowWidthRange);
     if (json.has("skin_gloss")) hair.skin_gloss = json.at("skin_gloss").number(kSkinGlossRange);
+    if (json.has("lock_length")) hair.lock_length = json.at("lock_length").number(kLockLengthRange);
+    if (json.has("lock_wave")) hair.lock_wave = json.at("lock_wave").number(kShareRange);
+    if (json.has("parting")) hair.parting = json.at("parting").number(kPartingRange);
     if (json.has("garment")) hair.garment = json.at("garment").string();
     if (json.has("garment_tone")) hair.garment_tone = json.at("garment_tone").vec3();
     return hair;
@@ -57,6 +61,9 @@ void write_identity_hair(const IdentityHair& hair, Json& json) {
     const IdentityHair usual;
     if (hair.style != usual.style) json["hair_style"] = hair.style;
     if (hair.hairline_form != usual.hairline_form) json["hairline_form"] = hair.hairline_form;
+    if (hair.lock_length != usual.lock_length) json["lock_length"] = hair.lock_length;
+    if (hair.lock_wave != usual.lock_wave) json["lock_wave"] = hair.lock_wave;
+    if (hair.parting != usual.parting) json["parting"] = hair.parting;
     if (hair.grey) json["grey_hair"] = *hair.grey;
     if (hair.age_lines != usual.age_lines) json["age_lines"] = hair.age_lines;
     if (hair.seed != usual.seed) json["seed"] = hair.seed;

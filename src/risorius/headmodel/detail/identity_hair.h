@@ -14,11 +14,14 @@
 namespace risorius::headmodel {
 
 inline constexpr Range kShareRange{0, 1}, kBrowDensityRange{0, 3}, kBrowWidthRange{0.3, 2},
-    kSkinGlossRange{0, 2};
+    kSkinGlossRange{0, 2}, kLockLengthRange{0.5, 1.5}, kPartingRange{-2, 2};
 
 struct IdentityHair {
     std::string style = "shaven";        ///< a name of render::hair_style_names()
     std::string hairline_form = "even";  ///< a name of render::hairline_form_names()
+    double lock_length = 1;              ///< 0.5..1.5, length of the locks against the style's
+    double lock_wave = 0;                ///< 0..1, waves beside those of the style
+    double parting = 1;                  ///< -2..2, place of the parting against the style's
     std::optional<double> grey;          ///< 0..1, share of white hairs; unset: as comes with age
     double age_lines = 0;                ///< 0..1, strength of the lines that come with age
     int seed = 1;                        ///< of locks, hairs, pores and spots

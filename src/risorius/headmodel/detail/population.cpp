@@ -130,6 +130,14 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
                                    : kind < 0.94 ? "goatee"
                                                  : "jawline";
     }
+    // How hair is worn: any length and parting; waves are rare in East Asia and usual in Africa. Estimates.
+    const double length = draw.even(), wave = draw.even(), parting = draw.even();
+    person.hairdo.lock_length = to_hundredths(0.6 + 0.8 * length);
+    person.hairdo.lock_wave =
+        to_hundredths(ancestry == "african"      ? 0.4 + 0.6 * wave
+                      : ancestry == "east_asian" ? 0.3 * wave
+                                                 : std::max(0.0, 1.8 * wave - 0.8));
+    person.hairdo.parting = to_hundredths(4 * parting - 2);
 }
 
 /// Melanin of an ancestry: mean and spread of facial skin as in ISSA (2025), for South Asian faces an estimate.

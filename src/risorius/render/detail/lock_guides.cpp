@@ -39,7 +39,7 @@ LockGround::LockGround(const Scene& scene, const SkinPlan& plan, const Vec3& cen
     whorl_ = (crown + 0.45 * (back - crown) + Vec3(0.008, 0.012, -0.012) - centre).normalized();
     knot_ = back + Vec3(0, 0.008, -0.014);
     parting_m_ = 1e-3 * style.parting_mm;
-    jaw_m_ = jaw.y() - 0.010;
+    tips_m_ = jaw.y() - 0.010 + 1e-3 * style.cut_mm;
 }
 
 bool LockGround::grows(const Vec3& direction, double inside_m) const {
@@ -145,7 +145,7 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
     if (guide.edge && style_.flow == HairFlow::kRadial) length *= 0.6;
     length = std::min(length, longest_m);
     const double turn = 2 * std::numbers::pi * random.next(), stray = random.next() - 0.5,
-                 cut = jaw_m_ + 0.016 * (random.next() - 0.5);
+                 cut = tips_m_ + 0.016 * (random.next() - 0.5);
     const double cap = cap_m(d), layer = 1e-3 * style_.layers_mm * guide.layer,
                  loft = 1e-3 * style_.loft_mm;
     const bool tuft = style_.flow == HairFlow::kRadial;

@@ -59,7 +59,7 @@ class LockGround {
     const SkinPlan& plan_;
     HeadRadius head_;
     Vec3 whorl_, knot_;
-    double parting_m_, jaw_m_;
+    double parting_m_, tips_m_;
 };
 
 }  // namespace risorius::render

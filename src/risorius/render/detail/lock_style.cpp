@@ -165,6 +165,26 @@ const LockStyle* lock_style(const std::string& name) {
     return at == 0 ? nullptr : &kStyles[at];
 }
 
+LockStyle varied_style(LockStyle style, double length, double wave, double parting) {
+    constexpr double kHanging_mm = 90;  // from the ears to the tips
+    constexpr double kWave_mm = 5, kWavePitch_mm = 42;
+    if (style.hangs) {
+        style.cut_mm = kHanging_mm * (1 - length);
+        length = std::max(length, 1.0);
+    }
+    style.top_mm *= length;
+    style.side_mm *= length;
+    style.back_mm *= length;
+    if (style.flow == HairFlow::kRadial) {
+        style.cap_mm *= length;
+    } else if (style.flow == HairFlow::kParting) {
+        style.curl_mm += kWave_mm * wave;
+        style.pitch_mm += wave * (kWavePitch_mm - style.pitch_mm);
+    }
+    style.parting_mm *= parting;
+    return style;
+}
+
 const HairlineForm& hairline_form(const std::string& name) {
     return kForms[index_of_name("hairline_form", name, hairline_form_names())];
 }

@@ -42,12 +42,17 @@ struct LockStyle {
     double lit_cap = 0.5;    ///< light that the cap gets, as a share
     bool over_ears = false;  ///< locks lie over the ears; otherwise they end above them
     bool ring = false;       ///< the crown is bald
-    bool hangs = false;      ///< down to the level of the jaw, whatever the length
+    bool hangs = false;      ///< down to `cut_mm` above the jaw, whatever the length
+    double cut_mm = 0;       ///< height of the tips above those at the jaw
     bool tail = false;       ///< from the knot
 };
 
 /// Returns the style of a name, or null for "shaven". The name must be one of hair_style_names().
 const LockStyle* lock_style(const std::string& name);
+
+/// Returns a style with locks of `length` times its lengths, waves of a share `wave` (0..1) beside its own, and the parting at `parting`
+/// times its place.
+LockStyle varied_style(LockStyle style, double length, double wave, double parting);
 
 /// How a form of the hairline differs from the one that the landmarks give, mm.
 struct HairlineForm {

@@ -224,9 +224,12 @@ void add_casters(Hair& hair) {
 
 Hair plan_hair(const Scene& scene, const SkinPlan& plan, const Vec3& paint_centre) {
     Hair hair;
-    const LockStyle* style = lock_style(scene.appearance.hair_style);
-    if (!style || has_own_skin(scene) || plan.hairline[0] > 1) return hair;
-    const LockGround ground(scene, plan, paint_centre, *style);
+    const Appearance& person = scene.appearance;
+    const LockStyle* named = lock_style(person.hair_style);
+    if (!named || has_own_skin(scene) || plan.hairline[0] > 1) return hair;
+    const LockStyle style =
+        varied_style(*named, person.lock_length, person.lock_wave, person.parting);
+    const LockGround ground(scene, plan, paint_centre, style);
     RandomSequence random(scene.appearance.seed * 40503U + 11U);
     // The outermost locks come first: what they hide is then not shaded.
     std::vector<LockGuide> guides = ground.guides(scene.appearance.seed);
@@ -234,10 +237,10 @@ Hair plan_hair(const Scene& scene, const SkinPlan& plan, const Vec3& paint_centr
                      [](const LockGuide& a, const LockGuide& b) { return a.layer > b.layer; });
     for (const LockGuide& guide : guides) {
         const LockChance chance{random.next(), random.next(), random.next()};
-        add_lock(guide, *style, guide.root.on(scene.rest), chance, random, hair);
+        add_lock(guide, style, guide.root.on(scene.rest), chance, random, hair);
     }
     add_casters(hair);
-    add_cap(ground, *style, scene, hair);
+    add_cap(ground, style, scene, hair);
     return hair;
 }
 

@@ -238,8 +238,12 @@ double white_share(const Appearance& appearance) {
 }
 
 Vec3 hair_tone_at(const Appearance& appearance) {
-    return appearance.hair_tone +
-           white_share(appearance) * (Vec3(0.60, 0.555, 0.50) - appearance.hair_tone);
+    // Brows and beards of blond people are darker and less yellow than their hair.
+    const Vec3& long_hair = appearance.hair_tone;
+    const double light = std::clamp((long_hair.x() - 0.40) / 0.15, 0.0, 1.0),
+                 yellow = std::clamp((long_hair.x() - long_hair.z()) / 0.30, 0.0, 1.0);
+    const Vec3 tone = long_hair + 0.8 * light * yellow * (Vec3(0.38, 0.28, 0.20) - long_hair);
+    return tone + white_share(appearance) * (Vec3(0.60, 0.555, 0.50) - tone);
 }
 
 double scalp_paint(const Appearance& appearance) {

@@ -55,7 +55,7 @@ double beard_density(const SkinPlan& plan, const Vec3& rest);
 /// Share of white hairs: what the appearance says, or else what comes with its age.
 double white_share(const Appearance& appearance);
 
-/// Tone of the hair with its white hairs.
+/// Tone of short hair (brows, beard, stubble) with its white hairs.
 Vec3 hair_tone_at(const Appearance& appearance);
 
 /// How dark the scalp is painted, 0..1. Between locks it is as dark as their roots.

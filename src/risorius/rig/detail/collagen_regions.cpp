@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/rig/detail/collagen_regions.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "risorius/core/json_object.h"
+#include "risorius/rig/detail/known_landmark.h"
 
 namespace risorius::rig {
 
 std::vector<CollagenRegion> read_collagen_regions(const JsonCursor& json,
                                                   const std::vector<std::string>& landmarks) {
-    const std::vector<std::string_view> names(landmarks.begin(), landmarks.end());
-    const auto landmark = [&](const JsonCursor& named) {
-        const std::string id = named.string(), near = nearest_name(id, names);
-        if (std::find(names.begin(), names.end(), id) == names.end())
-            named.fail(near.empty() ? "a landmark of the atlas"
-                                    : "a landmark of the atlas (did you mean \"" + near + "\"?)");
-        return id;
-    };
     // Each looks at all of the tissue.
     constexpr std::size_t kMostRegions = 100;
     const std::vector<JsonCursor> items = json.items();
@@ -26,12 +18,12 @@ std::vector<CollagenRegion> read_collagen_regions(const JsonCursor& json,
     for (const JsonCursor& item : items) {
         item.allow_keys({"at", "radius_mm", "layer", "from", "to", "k1_pa", "k2"});
         CollagenRegion region;
-        region.at = landmark(item.at("at"));
+        region.at = known_landmark(item.at("at"), landmarks);
         region.radius_mm = item.at("radius_mm").number({1, 200});
         if (const auto layer = item.find("layer"))
             region.layer = layer->one_of({"deep", "superficial", "both"});
-        region.from = landmark(item.at("from"));
-        region.to = landmark(item.at("to"));
+        region.from = known_landmark(item.at("from"), landmarks);
+        region.to = known_landmark(item.at("to"), landmarks);
         if (region.from == region.to) item.at("to").fail("another landmark than \"from\"");
         region.k1_pa = item.at("k1_pa").number({1, 1e7});
         if (const auto k2 = item.find("k2")) region.k2 = k2->number({0, 1000});

@@ -8,6 +8,7 @@
 
 #include "risorius/core/existing_file.h"
 #include "risorius/core/json_object.h"
+#include "risorius/core/known_names.h"
 
 namespace risorius::rig {
 
@@ -20,15 +21,12 @@ constexpr std::pair<std::string_view, std::string_view> kRing{"orbicularis_oris_
 
 const Muscle& muscle_named(const JsonCursor& json, const std::string& id,
                            const MuscleTable& table) {
-    std::vector<std::string_view> known;
+    std::vector<std::string> known;
     for (const Muscle& muscle : table.muscles) {
         if (muscle.id == id) return muscle;
         known.push_back(muscle.id);
     }
-    const std::string near = nearest_name(id, known);
-    json.fail("a muscle of the table of muscles" +
-                  (near.empty() ? "" : " (did you mean \"" + near + "\"?)"),
-              "\"" + id + "\"");
+    json.fail("a muscle of the table of muscles" + did_you_mean(id, known), "\"" + id + "\"");
 }
 
 std::shared_ptr<const io::TetMesh> read_belly(const JsonCursor& named) {
