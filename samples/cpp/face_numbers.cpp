@@ -21,11 +21,10 @@ int main(int argc, char** argv) try {
     const track::ChannelTable channels = files.rig.channels();
 
     // The expression rises for half a second and is held
-    const track::Expansion happiness = rig::expansion_named(files.rig, "happiness").value();
     const face::DriveAt drive = [&](double t_s) {
-        track::Expansion sum = track::Expansion::none(channels);
-        sum.add(happiness, std::clamp(t_s / 0.5, 0.0, 1.0));
-        return rig::clamped_drive(sum, channels);
+        const double intensity = std::clamp(t_s / 0.5, 0.0, 1.0);
+        return rig::clamped_drive(rig::expansion_at(files.rig, "happiness", intensity).value(),
+                                  channels);
     };
 
     std::puts("t_s\tcorner_y_mm\tlength_mm\tforce_n\tstress_kpa\tenergy_mj");

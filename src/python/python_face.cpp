@@ -168,44 +168,14 @@ class PythonFace {
 
     void add(const std::string& name, double value, track::Expansion& sum) const {
         if (!std::isfinite(value)) throw Error(name, "a number", "NaN or infinity");
-        if (const std::vector<track::Kinematic> found = track::kinematic_named(name);
-            !found.empty()) {
-            for (const track::Kinematic k : found)
-                sum.kinematic[static_cast<std::size_t>(k)] += value;
+        if (const std::optional<track::Expansion> found =
+                rig::expansion_at(files_.rig, name, value)) {
+            sum.add(*found, 1.0);
             return;
         }
-        const rig::RigDescription& rig = files_.rig;
         const track::SidedName sided = track::split_side(name);
-        if (const track::ActionUnit* unit =
-                rig.facs.find(name) ? rig.facs.find(name) : rig.facs.find(sided.id)) {
-            const bool whole = rig.facs.find(name) != nullptr;
-            if (!whole && !unit->sided)
-                throw Error(name, "\"" + sided.id + "\", which has no sides", "\"" + name + "\"");
-            sum.add(track::expand(*unit, whole ? std::nullopt : sided.side, channels_), unit->curve,
-                    value);
-            return;
-        }
-        if (const track::Expression* expression = rig.expressions.find(name)) {
-            for (const track::ExpressionUnit& part : expression->parts.units) {
-                const track::ActionUnit& unit = *rig.facs.find(part.use.unit);
-                sum.add(track::expand(unit, part.use.side, channels_), unit.curve,
-                        value * part.use.value);
-            }
-            for (const track::MuscleFraction& muscle : expression->parts.muscles)
-                sum.add(track::expand(muscle, channels_), track::curve_of_added_muscles(), value);
-            return;
-        }
-        if (const track::MuscleChannel* muscle = channels_.find(sided.id)) {
-            if (sided.side && !muscle->paired)
-                throw Error(name, "\"" + sided.id + "\", which has no sides", "\"" + name + "\"");
-            sum.add(track::expand(track::MuscleFraction{sided.id, sided.side, 1.0}, channels_),
-                    value);
-            return;
-        }
-        if (const std::optional<track::Expansion> found = rig::expansion_named(rig, name)) {
-            sum.add(*found, value);
-            return;
-        }
+        if (sided.side && (files_.rig.facs.find(sided.id) || channels_.find(sided.id)))
+            throw Error(name, "\"" + sided.id + "\", which has no sides", "\"" + name + "\"");
         throw Error(
             files_.place(),
             "the name of a muscle, an action unit, an expression, a blend shape or a channel",

@@ -131,6 +131,25 @@ TEST(Locks, AreAsLongAndPartedWhereTheAppearanceSays) {
     EXPECT_NE(straight, places_of(hair_on(head.scene, "bob"), head.scene.rest));
 }
 
+TEST(Locks, AFringeCoversTheForeheadAsFarAsItIsAskedFor) {
+    HairyHead head;
+    const auto lowest_in_front = [&](const char* style, double fringe) {
+        head.scene.appearance.fringe = fringe;
+        const Points places = places_of(hair_on(head.scene, style), head.scene.rest);
+        double lowest = 1;
+        for (Eigen::Index v = 0; v < places.rows(); ++v)
+            if (places(v, 2) > 0.06 && std::abs(places(v, 0)) < 0.03)
+                lowest = std::min(lowest, places(v, 1));
+        return lowest;
+    };
+    const double brow = 0.02;
+    head.scene.landmarks["bm_l"] = RoundHead::on_skin(0.02, brow);
+    EXPECT_GT(lowest_in_front("bob", 0), 0.055);
+    EXPECT_NEAR(lowest_in_front("bob", 0.5), 0.5 * (0.065 + brow), 0.012);
+    EXPECT_NEAR(lowest_in_front("bob", 1), brow, 0.012);
+    EXPECT_EQ(lowest_in_front("crop", 1), lowest_in_front("crop", 0)) << "has no parting";
+}
+
 TEST(Locks, BrowsAreDarkerThanBlondHairAndAsDarkAsOtherHair) {
     Appearance appearance;
     appearance.grey_hair = 0;

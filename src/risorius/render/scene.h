@@ -74,8 +74,10 @@ struct Appearance {
     std::string hair_style = "shaven";
     double lock_length = 1.0;  ///< length of the locks as a multiple of the style's
     double lock_wave = 0.0;    ///< 0..1, waves beside those of the style
-    double parting =
-        1.0;  ///< place of the parting as a multiple of the style's; below 0: on the other side
+    /// 0..1, how far the locks of bob and short_parted cover the forehead; 1: to the brows
+    double fringe = 0.0;
+    /// Place of the parting as a multiple of the style's; below 0: on the other side
+    double parting = 1.0;
     std::string hairline_form = "even";  ///< a name of hairline_form_names()
     double age_lines = 0.0;              ///< 0..1, strength of the lines that come with age
     std::optional<double> grey_hair;     ///< 0..1, share of white hairs; unset: as comes with age

@@ -38,6 +38,50 @@ SidedShape split_shape(const std::string& name) {
     return {name, std::nullopt};
 }
 
+std::optional<track::Expansion> expansion_at(const rig::RigDescription& rig,
+                                             const std::string& name, double intensity) {
+    const track::ChannelTable channels = rig.channels();
+    track::Expansion out = track::Expansion::none(channels);
+    if (const std::vector<track::Kinematic> found = track::kinematic_named(name); !found.empty()) {
+        for (const track::Kinematic k : found)
+            out.kinematic[static_cast<std::size_t>(k)] = intensity;
+        return out;
+    }
+    const track::SidedName sided = track::split_side(name);
+    const auto add_unit = [&](const track::ActionUnit& unit, std::optional<Side> side,
+                              double share) {
+        out.add(track::expand(unit, side, channels), unit.curve, share);
+    };
+    if (const track::ActionUnit* whole = rig.facs.find(name)) {
+        add_unit(*whole, std::nullopt, intensity);
+        return out;
+    }
+    if (const track::ActionUnit* unit = rig.facs.find(sided.id)) {
+        if (!unit->sided) return std::nullopt;
+        add_unit(*unit, sided.side, intensity);
+        return out;
+    }
+    if (const track::Expression* expression = rig.expressions.find(name)) {
+        for (const track::ExpressionUnit& part : expression->parts.units)
+            add_unit(*rig.facs.find(part.use.unit), part.use.side, intensity * part.use.value);
+        for (const track::MuscleFraction& muscle : expression->parts.muscles)
+            out.add(track::expand(muscle, channels), track::curve_of_added_muscles(), intensity);
+        return out;
+    }
+    if (const track::MuscleChannel* muscle = channels.find(sided.id)) {
+        if (sided.side && !muscle->paired) return std::nullopt;
+        out.add(track::expand(track::MuscleFraction{sided.id, sided.side, 1.0}, channels),
+                intensity);
+        return out;
+    }
+    std::optional<track::Expansion> found = expansion_named(rig, name);
+    if (found) {
+        out.add(*found, intensity);
+        found = out;
+    }
+    return found;
+}
+
 std::optional<track::Expansion> expansion_named(const rig::RigDescription& rig,
                                                 const std::string& name) {
     const track::ChannelTable channels = rig.channels();

@@ -105,6 +105,7 @@ void visit_fields(AppearanceDescription& appearance, Visit visit) {
     visit("hairline_form", appearance.hairline_form, kHairlines);
     visit("lock_length", appearance.lock_length, Range{0.5, 1.5});
     visit("lock_wave", appearance.lock_wave, Range{0, 1});
+    visit("fringe", appearance.fringe, Range{0, 1});
     visit("parting", appearance.parting, Range{-2, 2});
     visit("grey_hair", appearance.grey_hair, Range{0, 1});
     visit("age_lines", appearance.age_lines, Range{0, 1});
@@ -480,9 +481,9 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     json["appearance"] = fields_of(rig.appearance);
     // Rigs that ask for no hair and no lines stay as they were before there were any.
     const Json usual = fields_of(AppearanceDescription{});
-    for (const char* key :
-         {"hair_style", "lock_length", "lock_wave", "parting", "hairline_form", "age_lines",
-          "beard_form", "brow_density", "brow_width", "skin_gloss", "garment", "garment_tone"})
+    for (const char* key : {"hair_style", "lock_length", "lock_wave", "fringe", "parting",
+                            "hairline_form", "age_lines", "beard_form", "brow_density",
+                            "brow_width", "skin_gloss", "garment", "garment_tone"})
         if (json["appearance"][key] == usual[key]) json["appearance"].erase(key);
     if (const auto source = options.standard_folder / kCalibrationFile;
         std::filesystem::exists(source))

@@ -128,7 +128,7 @@ struct AppearanceDescription {
     int seed = 1;
     std::string hair_style = "shaven",
                 hairline_form = "even";  ///< names as in render/hair_styles.h
-    double lock_length = 1.0, lock_wave = 0.0, parting = 1.0;
+    double lock_length = 1.0, lock_wave = 0.0, fringe = 0.0, parting = 1.0;
     std::optional<double> grey_hair;  ///< share of white hairs; unset: as comes with age
     double age_lines = 0.0;
     std::string beard_form = "stubble";

@@ -191,6 +191,7 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
                         .hair_style = rig.appearance.hair_style,
                         .lock_length = rig.appearance.lock_length,
                         .lock_wave = rig.appearance.lock_wave,
+                        .fringe = rig.appearance.fringe,
                         .parting = rig.appearance.parting,
                         .hairline_form = rig.appearance.hairline_form,
                         .age_lines = rig.appearance.age_lines,

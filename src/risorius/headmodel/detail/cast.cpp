@@ -30,12 +30,9 @@ const std::pair<double IdentityHair::*, Range> kBlendedHair[] = {
     {&IdentityHair::skin_gloss, kSkinGlossRange},
     {&IdentityHair::lock_length, kLockLengthRange},
     {&IdentityHair::lock_wave, kShareRange},
+    {&IdentityHair::fringe, kShareRange},
     {&IdentityHair::parting, kPartingRange}};
 constexpr std::string Identity::*kTones[] = {&Identity::skin, &Identity::iris, &Identity::hair};
-
-bool makes_uneven(const std::string& parameter) {
-    return parameter.starts_with("uneven_") || parameter.starts_with("lean_");
-}
 
 /// Every combination of what is balanced, one after the other; the cast goes round it.
 std::vector<PersonChoice> places_of(const CastOptions& options, const DesignTables& tables,

@@ -16,7 +16,7 @@ const std::vector<std::string_view>& identity_hair_keys() {
     static const std::vector<std::string_view> keys{
         "hair_style",   "hairline_form", "grey_hair",  "age_lines",  "seed",
         "beard_form",   "brow_density",  "brow_width", "skin_gloss", "garment",
-        "garment_tone", "lock_length",   "lock_wave",  "parting"};
+        "garment_tone", "lock_length",   "lock_wave",  "fringe",     "parting"};
     return keys;
 }
 
@@ -34,6 +34,7 @@ IdentityHair read_identity_hair(const JsonCursor& json) {
     if (json.has("skin_gloss")) hair.skin_gloss = json.at("skin_gloss").number(kSkinGlossRange);
     if (json.has("lock_length")) hair.lock_length = json.at("lock_length").number(kLockLengthRange);
     if (json.has("lock_wave")) hair.lock_wave = json.at("lock_wave").number(kShareRange);
+    if (json.has("fringe")) hair.fringe = json.at("fringe").number(kShareRange);
     if (json.has("parting")) hair.parting = json.at("parting").number(kPartingRange);
     if (json.has("garment")) hair.garment = json.at("garment").string();
     if (json.has("garment_tone")) hair.garment_tone = json.at("garment_tone").vec3();
@@ -63,6 +64,7 @@ void write_identity_hair(const IdentityHair& hair, Json& json) {
     if (hair.hairline_form != usual.hairline_form) json["hairline_form"] = hair.hairline_form;
     if (hair.lock_length != usual.lock_length) json["lock_length"] = hair.lock_length;
     if (hair.lock_wave != usual.lock_wave) json["lock_wave"] = hair.lock_wave;
+    if (hair.fringe != usual.fringe) json["fringe"] = hair.fringe;
     if (hair.parting != usual.parting) json["parting"] = hair.parting;
     if (hair.grey) json["grey_hair"] = *hair.grey;
     if (hair.age_lines != usual.age_lines) json["age_lines"] = hair.age_lines;

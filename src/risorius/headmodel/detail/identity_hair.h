@@ -21,6 +21,7 @@ struct IdentityHair {
     std::string hairline_form = "even";  ///< a name of render::hairline_form_names()
     double lock_length = 1;              ///< 0.5..1.5, length of the locks against the style's
     double lock_wave = 0;                ///< 0..1, waves beside those of the style
+    double fringe = 0;                   ///< 0..1, how far locks cover the forehead
     double parting = 1;                  ///< -2..2, place of the parting against the style's
     std::optional<double> grey;          ///< 0..1, share of white hairs; unset: as comes with age
     double age_lines = 0;                ///< 0..1, strength of the lines that come with age

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "risorius/core/known_names.h"
@@ -14,7 +15,8 @@ namespace {
 constexpr double kCut = 2.5;  ///< standard deviations; beyond them nobody is drawn
 constexpr double kBaldTemples_mm = 11;
 constexpr double kYoungest = 20, kOldest = 75;  ///< years
-constexpr unsigned kHairSequence = 0x5eed0000, kSkinSequence = 0x5c1d0000;
+constexpr unsigned kHairSequence = 0x5eed0000, kSkinSequence = 0x5c1d0000,
+                   kFormSequence = 0x0f050001;
 
 /// Where a seed stands among all persons: seeds in a row take turns in sex and fill three directions, 0..1, evenly, so that few
 /// of them share age, ancestry and hair. The steps are square roots and the golden ratio: the fractions of their multiples are spread evenly.
@@ -30,6 +32,52 @@ Place place_of(unsigned seed) {
     };
     return {seed % 2 == 1, along(std::numbers::sqrt2), along(std::numbers::phi),
             along(std::numbers::sqrt3)};
+}
+
+/// Values of all parameters of the population, in its order.
+using Form = std::vector<double>;
+
+Form drawn_form(Draw& draw, const DesignTables& tables) {
+    const auto normal = [&] { return std::clamp(draw.normal(), -kCut, kCut); };
+    std::vector<double> modes(tables.population.front().modes.size());
+    for (double& mode : modes) mode = normal();
+    Form form;
+    for (const PopulationParameter& p : tables.population) {
+        double value = p.own * normal();
+        for (std::size_t m = 0; m < modes.size(); ++m) value += p.modes[m] * modes[m];
+        form.push_back(to_hundredths(std::clamp(value, -kCut, kCut)));
+    }
+    return form;
+}
+
+double squared_distance(const Form& a, const Form& b, const DesignTables& tables) {
+    double sum = 0;
+    for (std::size_t k = 0; k < a.size(); ++k)
+        if (!makes_uneven(tables.population[k].name)) sum += (a[k] - b[k]) * (a[k] - b[k]);
+    return sum;
+}
+
+/// Of some forms that a seed draws, the one farthest from those before it in its row. Seeds that a program draws at random are in no row.
+Form form_in_row(unsigned seed, const DesignTables& tables) {
+    constexpr unsigned kRow = 24, kCandidates = 24, kLastInRows = 9600;
+    const unsigned first = seed > 0 && seed <= kLastInRows ? (seed - 1) / kRow * kRow + 1 : seed;
+    std::vector<Form> row;
+    for (unsigned member = first; member <= seed; ++member) {
+        Form best;
+        double farthest = -1;
+        for (unsigned c = 0; c < (row.empty() ? 1 : kCandidates); ++c) {
+            Draw draw(member + c * kFormSequence);
+            Form form = drawn_form(draw, tables);
+            double nearest = std::numeric_limits<double>::infinity();
+            for (const Form& other : row)
+                nearest = std::min(nearest, squared_distance(form, other, tables));
+            if (nearest <= farthest) continue;
+            farthest = nearest;
+            best = std::move(form);
+        }
+        row.push_back(std::move(best));
+    }
+    return row.back();
 }
 
 /// Tones that are usual, from the names of the tones table, in thirds.
@@ -95,7 +143,7 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
     // Skin that aged earlier or later than most, by five years as a standard deviation. The lines grow with it as in the named
     // people, whose ages were read from pictures.
     const double seems = person.age + 5 * std::clamp(draw.normal(), -2.0, 2.0);
-    person.hairdo.age_lines = to_hundredths(std::clamp((seems - 25) / 35, 0.0, 1.0));
+    person.hairdo.age_lines = to_hundredths(std::clamp((seems - 22) / 30, 0.0, 1.0));
     // In the mean 26 % of grey hair at 53, 32 % at 58, 40 % at 63 years (Panhard et al. 2012).
     const double greying = person.age + 10 * std::clamp(draw.normal(), -2.0, 2.0);
     double grey = std::clamp((greying - 40) / 50, 0.0, 1.0);
@@ -138,6 +186,10 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
                       : ancestry == "east_asian" ? 0.3 * wave
                                                  : std::max(0.0, 1.8 * wave - 0.8));
     person.hairdo.parting = to_hundredths(4 * parting - 2);
+    const double fringe = draw.even() * (man ? 1.4 : 1);
+    const std::string& style = person.hairdo.style;
+    if (fringe < 0.5 && (style == "bob" || style == "short_parted"))
+        person.hairdo.fringe = to_hundredths(0.4 + 1.2 * fringe);
 }
 
 /// Melanin of an ancestry: mean and spread of facial skin as in ISSA (2025), for South Asian faces an estimate.
@@ -165,6 +217,10 @@ void draw_skin(unsigned seed, const std::string& ancestry, Identity& person) {
 }
 
 }  // namespace
+
+bool makes_uneven(const std::string& parameter) {
+    return parameter.starts_with("uneven_") || parameter.starts_with("lean_");
+}
 
 std::map<std::string, double> person_shape(const Identity& identity, const DesignTables& tables) {
     const double age = (identity.age - 40) / 40, late = std::max(0.0, identity.age - 45) / 35;
@@ -197,14 +253,9 @@ Identity random_person(unsigned seed, const PersonChoice& choice, const DesignTa
     person.age = choice.age.value_or(age);
     index_of_name("ancestry", ancestry, tables.ancestries);
     person.ancestry[ancestry] = 1;
-    const auto normal = [&] { return std::clamp(draw.normal(), -kCut, kCut); };
-    std::vector<double> modes(tables.population.front().modes.size());
-    for (double& mode : modes) mode = normal();
-    for (const PopulationParameter& p : tables.population) {
-        double value = p.own * normal();
-        for (std::size_t m = 0; m < modes.size(); ++m) value += p.modes[m] * modes[m];
-        person.shape[p.name] = to_hundredths(std::clamp(value, -kCut, kCut));
-    }
+    drawn_form(draw, tables);  // what follows it in the sequence does not depend on the row
+    const Form form = form_in_row(seed, tables);
+    for (std::size_t k = 0; k < form.size(); ++k) person.shape[tables.population[k].name] = form[k];
     draw_colours(draw, ancestry, person);
     draw_hair(seed, ancestry, tables, person);
     draw_skin(seed, ancestry, person);

@@ -17,13 +17,17 @@ namespace risorius::headmodel {
 /// Returns the shape of a person against the average head: that of sex, age and ancestry and that of the person, limited to kPersonShapeRange.
 std::map<std::string, double> person_shape(const Identity& identity, const DesignTables& tables);
 
+/// Whether a parameter makes a face uneven, so that it tells nothing of how two persons differ.
+bool makes_uneven(const std::string& parameter);
+
 /// What is decided before a person is drawn.
 struct PersonChoice {
     std::optional<double> sex{}, age{};
     std::optional<std::string> ancestry{};
 };
 
-/// Draws a person; the same seed gives the same person on every machine. What is chosen replaces what the seed would give and changes
+/// Draws a person; the same seed gives the same person on every machine. Seeds up to 9600 stand in rows of 24 (1 to 24, 25 to 48, ...): each
+/// draws 24 forms and takes the one that is least like those before it in its row. What is chosen replaces what the seed would give and changes
 /// nothing else of the form. Shapes are limited to magnitude 2.5.
 Identity random_person(unsigned seed, const PersonChoice& choice, const DesignTables& tables);
 

@@ -39,6 +39,9 @@ LockGround::LockGround(const Scene& scene, const SkinPlan& plan, const Vec3& cen
     whorl_ = (crown + 0.45 * (back - crown) + Vec3(0.008, 0.012, -0.012) - centre).normalized();
     knot_ = back + Vec3(0, 0.008, -0.014);
     parting_m_ = 1e-3 * style.parting_mm;
+    const Vec3 top = landmark_or(scene, "tr", centre + Vec3(0, 0.09, 0.08)),
+               brow = landmark_or(scene, "bm_l", centre + Vec3(0.02, 0.03, 0.09));
+    fringe_m_ = top.y() + style.fringe * (brow.y() + 0.002 - top.y());
     tips_m_ = jaw.y() - 0.010 + 1e-3 * style.cut_mm;
 }
 
@@ -78,6 +81,11 @@ double LockGround::length_m(const Vec3& d) const {
                  side = d.x() * d.x() / std::max(d.x() * d.x() + d.z() * d.z(), 1e-9);
     return 1e-3 * (top * style_.top_mm +
                    (1 - top) * (side * style_.side_mm + (1 - side) * style_.back_mm));
+}
+
+bool LockGround::in_fringe(const Vec3& d) const {
+    constexpr double kDeep_m = 0.038;
+    return style_.fringe > 0 && d.z() > 0.1 && std::abs(d.x()) < 0.55 && !grows(d, kDeep_m);
 }
 
 Vec3 LockGround::flow(const Vec3& at) const {
@@ -148,10 +156,20 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
                  cut = tips_m_ + 0.016 * (random.next() - 0.5);
     const double cap = cap_m(d), layer = 1e-3 * style_.layers_mm * guide.layer,
                  loft = 1e-3 * style_.loft_mm;
-    const bool tuft = style_.flow == HairFlow::kRadial;
+    const bool tuft = style_.flow == HairFlow::kRadial, fringe = in_fringe(d);
+    const double fringe_cut = fringe ? fringe_m_ + 0.010 * (random.next() - 0.5) : 0;
+    const auto way_at = [&](const Vec3& at) -> Vec3 {
+        if (!fringe) return flow(at);
+        const Vec3 out = (at - head_.centre()).normalized();
+        return across_plane(Vec3(0.5 * stray + 0.25 * out.x(), -1, 0.35), out).normalized();
+    };
+    if (fringe) {
+        guide.width = 0.75;
+        guide.segments = std::min(style_.segments, 10);
+    }
     Vec3 p = centre + (skin_m(d) + (tuft ? 0.95 : 0.75) * cap + 0.0003) * d;
     // Tufts lie in any direction; other locks follow the flow, and stray a little.
-    Vec3 along = flow(p);
+    Vec3 along = way_at(p);
     const Vec3 aside = along.cross(d);
     if (tuft && guide.edge)
         along = across_plane(whorl_ - d, d).normalized() + 0.9 * stray * aside;
@@ -167,10 +185,11 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
         const Vec3 out = (p - centre).normalized();
         if (style_.flow == HairFlow::kKnot && (knot_ - p).norm() < 0.012) break;
         if (style_.hangs && p.y() < cut) break;
+        if (fringe && p.y() < fringe_cut) break;
         if (!style_.over_ears && head_.is_ear(out) && passed > 0.006) break;
         if (!tuft) {
             const bool free = p.y() < loose_m && style_.hangs;
-            const Vec3 onward = free ? Vec3(0.12 * v.x(), -1, 0.12 * v.z()) : flow(p);
+            const Vec3 onward = free ? Vec3(0.12 * v.x(), -1, 0.12 * v.z()) : way_at(p);
             v = (0.80 * v + 0.20 * onward + style_.fall * kStep_m / 0.03 * Vec3(0, -0.22, 0))
                     .normalized();
         }
@@ -209,6 +228,19 @@ void LockGround::add_hairline(RandomSequence& random, std::vector<LockGuide>& gu
         one.layer = 0.5;
         one.single = true;
         guides.push_back(std::move(one));
+    }
+}
+
+void LockGround::add_fringe(RandomSequence& random, std::vector<LockGuide>& guides) const {
+    constexpr int kDirections = 3000;
+    const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+    for (int i = 0; i < kDirections; ++i) {
+        const double y = 1 - 2 * (i + 0.5) / kDirections, ring = std::sqrt(1 - y * y);
+        const Vec3 d(ring * std::cos(golden * i), y, ring * std::sin(golden * i));
+        const double ragged = 0.006 * random.next();
+        if (!in_fringe(d) || !grows(d, ragged)) continue;
+        LockGuide one = guide(d, random, 1);
+        if (!one.points.empty()) guides.push_back(std::move(one));
     }
 }
 
@@ -275,6 +307,7 @@ std::vector<LockGuide> LockGround::guides(unsigned seed) const {
         guides.push_back(std::move(one));
     }
     add_hairline(random, guides);
+    if (style_.fringe > 0) add_fringe(random, guides);
     if (style_.tail) add_tail(random, guides);
     return guides;
 }

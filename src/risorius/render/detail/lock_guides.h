@@ -47,11 +47,15 @@ class LockGround {
 
   private:
     double length_m(const Vec3& direction) const;
+    /// Whether the hair that grows there is combed over the forehead.
+    bool in_fringe(const Vec3& direction) const;
     /// Distance from the centre to the skin that hair lies on, or 0 where it lies on none
     double skin_m(const Vec3& direction) const;
     LockGuide guide(const Vec3& direction, RandomSequence& random, double longest_m) const;
     /// Adds short single hairs that break the border.
     void add_hairline(RandomSequence& random, std::vector<LockGuide>& guides) const;
+    /// Adds locks that cover the forehead closely.
+    void add_fringe(RandomSequence& random, std::vector<LockGuide>& guides) const;
     void add_tail(RandomSequence& random, std::vector<LockGuide>& guides) const;
     void finish(std::vector<Vec3> way, const Vec3& across, double phase, LockGuide& guide) const;
 
@@ -60,6 +64,7 @@ class LockGround {
     HeadRadius head_;
     Vec3 whorl_, knot_;
     double parting_m_, tips_m_;
+    double fringe_m_ = 0;  ///< height of the tips over the forehead
 };
 
 }  // namespace risorius::render

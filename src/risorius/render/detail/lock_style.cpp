@@ -165,9 +165,10 @@ const LockStyle* lock_style(const std::string& name) {
     return at == 0 ? nullptr : &kStyles[at];
 }
 
-LockStyle varied_style(LockStyle style, double length, double wave, double parting) {
+LockStyle varied_style(LockStyle style, const LockChange& change) {
     constexpr double kHanging_mm = 90;  // from the ears to the tips
     constexpr double kWave_mm = 5, kWavePitch_mm = 42;
+    double length = change.length;
     if (style.hangs) {
         style.cut_mm = kHanging_mm * (1 - length);
         length = std::max(length, 1.0);
@@ -178,10 +179,11 @@ LockStyle varied_style(LockStyle style, double length, double wave, double parti
     if (style.flow == HairFlow::kRadial) {
         style.cap_mm *= length;
     } else if (style.flow == HairFlow::kParting) {
-        style.curl_mm += kWave_mm * wave;
-        style.pitch_mm += wave * (kWavePitch_mm - style.pitch_mm);
+        style.curl_mm += kWave_mm * change.wave;
+        style.pitch_mm += change.wave * (kWavePitch_mm - style.pitch_mm);
+        style.fringe = change.fringe;
     }
-    style.parting_mm *= parting;
+    style.parting_mm *= change.parting;
     return style;
 }
 

@@ -43,6 +43,7 @@ struct LockStyle {
     bool over_ears = false;  ///< locks lie over the ears; otherwise they end above them
     bool ring = false;       ///< the crown is bald
     bool hangs = false;      ///< down to `cut_mm` above the jaw, whatever the length
+    double fringe = 0;       ///< 0..1, how far the locks of the front come down to the brows
     double cut_mm = 0;       ///< height of the tips above those at the jaw
     bool tail = false;       ///< from the knot
 };
@@ -51,8 +52,11 @@ struct LockStyle {
 const LockStyle* lock_style(const std::string& name);
 
 /// Returns a style with locks of `length` times its lengths, waves of a share `wave` (0..1) beside its own, and the parting at `parting`
-/// times its place.
-LockStyle varied_style(LockStyle style, double length, double wave, double parting);
+/// times its place. Only styles with a parting have a fringe.
+struct LockChange {
+    double length = 1, wave = 0, parting = 1, fringe = 0;
+};
+LockStyle varied_style(LockStyle style, const LockChange& change);
 
 /// How a form of the hairline differs from the one that the landmarks give, mm.
 struct HairlineForm {

@@ -228,7 +228,7 @@ Hair plan_hair(const Scene& scene, const SkinPlan& plan, const Vec3& paint_centr
     const LockStyle* named = lock_style(person.hair_style);
     if (!named || has_own_skin(scene) || plan.hairline[0] > 1) return hair;
     const LockStyle style =
-        varied_style(*named, person.lock_length, person.lock_wave, person.parting);
+        varied_style(*named, {person.lock_length, person.lock_wave, person.parting, person.fringe});
     const LockGround ground(scene, plan, paint_centre, style);
     RandomSequence random(scene.appearance.seed * 40503U + 11U);
     // The outermost locks come first: what they hide is then not shaded.
