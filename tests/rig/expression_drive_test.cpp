@@ -32,14 +32,19 @@ TEST(ExpansionAt, SidesAddUpToTheWhole) {
                     .isApprox(excitation_at("AU12", 0.6)));
 }
 
-TEST(ExpansionAt, AnExpressionIsTheSumOfItsUnits) {
+TEST(ExpansionAt, AnExpressionIsTheSumOfItsUnitsAndMuscles) {
     const track::ChannelTable channels = rig().channels();
-    const track::Expression& happiness = *rig().expressions.find("happiness");
-    ASSERT_TRUE(happiness.parts.muscles.empty());
-    track::Expansion sum = track::Expansion::none(channels);
-    for (const track::ExpressionUnit& part : happiness.parts.units)
-        sum.add(expansion_at(rig(), part.use.unit, 0.7 * part.use.value).value(), 1);
-    EXPECT_TRUE(excitation_at("happiness", 0.7).isApprox(sum.excitation));
+    for (const char* name : {"happiness", "surprise"}) {
+        const track::Expression& expression = *rig().expressions.find(name);
+        track::Expansion sum = track::Expansion::none(channels);
+        for (const track::ExpressionUnit& part : expression.parts.units)
+            sum.add(expansion_at(rig(), part.use.unit, 0.7 * part.use.value).value(), 1);
+        for (const track::MuscleFraction& part : expression.parts.muscles)
+            sum.add(track::expand(part, channels),
+                    track::curve_of_added_muscles().muscles.activation(0.7));
+        EXPECT_TRUE(excitation_at(name, 0.7).isApprox(sum.excitation)) << name;
+        EXPECT_GT(sum.excitation.maxCoeff(), 0.05);
+    }
 }
 
 TEST(ExpansionAt, MusclesShapesAndChannelsAreProportional) {
