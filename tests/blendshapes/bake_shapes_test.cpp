@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +19,7 @@
 #include "risorius/blendshapes/detail/shape_weights.h"
 #include "risorius/blendshapes/shape_player.h"
 #include "risorius/core/error.h"
+#include "risorius/core/read_file.h"
 #include "risorius/core/sha256.h"
 #include "risorius/face/surfaces.h"
 #include "risorius/inverse/evaluate.h"
@@ -395,6 +399,31 @@ TEST_F(BakedShapes, AreFoundInLandmarksOverTime) {
     EXPECT_GT(pull(Side::kLeft), 0.1);
     EXPECT_LT(pull(Side::kRight), 0.05);
     EXPECT_TRUE(fs::exists(other.path() / "solved/script.json"));
+}
+
+// The whole set: without correctives it takes half a minute.
+TEST(BakedWholeSet, EveryPartHasTheShapesThatMoveIt) {
+    const TemporaryFolder folder;
+    ShapesOptions all{.rig = kAdult, .out = folder.path() / "whole", .formats = {"glb"}};
+    all.texture_px = 0;
+    all.pictures = all.correctives = false;
+    all.test_frames = 0;
+    const ShapesReport report = bake_shapes(all);
+    EXPECT_EQ(report.shapes.list.size(), 52u);
+    const std::string bytes = read_file(all.out / "shapes.glb", {"a face", 20 * kMegabyte});
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, sizeof length);
+    const Json gltf = Json::parse(bytes.substr(20, length));
+    std::map<std::string, std::size_t> keys;
+    for (const Json& mesh : gltf["meshes"])
+        for (const Json& primitive : mesh["primitives"]) {
+            const std::size_t count = primitive.value("targets", Json::array()).size();
+            EXPECT_EQ(keys.emplace(mesh["name"], count).first->second, count) << mesh["name"];
+        }
+    const std::map<std::string, std::size_t> wanted{
+        {"Face", 52},      {"EyeLeft", 4},    {"EyeRight", 4}, {"Lashes", 34},
+        {"TeethUpper", 0}, {"TeethLower", 5}, {"Tongue", 5}};
+    EXPECT_EQ(keys, wanted);
 }
 
 TEST(BakedShapesOfNothing, LeaveNothingBehind) {

@@ -62,6 +62,36 @@ TEST(FaceStatics, AnEquilibriumFromRestHasTheSameBitsWhateverTheFaceDidBefore) {
     EXPECT_EQ(from_rest(fresh, purse), from_rest(used, purse));
 }
 
+// A search begins at what another face found.
+TEST(FaceStatics, AFaceGoesBackToAnEquilibriumThatWasKeptAndIsAsIfItHadDoneNothingElse) {
+    const track::Drive purse = with_unit("AU24"), pull = some_drive();
+    track::Drive more = pull;
+    more.excitation *= 1.1;
+    Face finder = adult_face(kCoarse), other = adult_face(kCoarse);
+    finder.solve_equilibrium(pull.excitation, pull);
+    const KeptEquilibrium kept = finder.statics().keep();
+    const Points vertices = finder.pose().vertices;
+    other.solve_equilibrium(purse.excitation, purse);
+    other.statics().go_back_to(kept);
+    EXPECT_EQ(other.statics().nodes(), kept.nodes);
+    EXPECT_EQ(other.pose().vertices, vertices);
+    const auto onwards = [&](Face& face) {
+        face.statics().go_back_to(kept);
+        const StepStats figures = face.solve_equilibrium(more.excitation, more);
+        EXPECT_TRUE(figures.converged);
+        return figures.evaluations;
+    };
+    const int near = onwards(other);
+    onwards(finder);
+    EXPECT_EQ(other.statics().nodes(), finder.statics().nodes());
+    // It is nearer than the rest.
+    other.start(always(neutral()));
+    EXPECT_LT(2 * near, other.solve_equilibrium(more.excitation, more).evaluations);
+    EXPECT_LT((other.pose().vertices - finder.pose().vertices).rowwise().norm().maxCoeff(), 0.1e-3);
+    other.drive_jaw_by(track::JawDrive::kMuscles);
+    EXPECT_THROW(other.statics().go_back_to(kept), std::logic_error);
+}
+
 TEST(FaceStatics, SaysThatItHasNotConverged) {
     Face face = adult_face(kCoarse);
     EXPECT_FALSE(

@@ -102,8 +102,8 @@ class LandmarkSets : public testing::Test {
         out << "\n";
         return out.str();
     }
-    FitTarget read(const fs::path& file, LandmarkOptions options = {}) const {
-        options.fps = 240;
+    FitTarget read(const fs::path& file, LandmarkOptions options = {}, int fps = 240) const {
+        options.fps = fps;
         return given_landmarks(
             file, options, points_, [&] { return max_m_; }, head_.vertices);
     }
@@ -160,6 +160,9 @@ TEST_F(LandmarkSets, ASitterBeforeACameraMovesTheRigAsItself) {
     EXPECT_LT(error_m(found, set), 0.5e-3);
     EXPECT_NEAR(found.sitter_scale * kSize * kPx_per_m, 1, 1e-3);
     EXPECT_TRUE(found.sure.empty());
+    // Times are rounded in a file: 0.0333333 s is a frame of 30 frames a second.
+    EXPECT_EQ(read(folder_.path() / "seen.csv", {}, 30).fields.size(), 9u);
+    EXPECT_EQ(read(folder_.path() / "seen.csv", {}, 15).fields.size(), 5u);
 }
 
 TEST_F(LandmarkSets, JsonOfMediaPipeHasSharesOfThePicture) {

@@ -11,6 +11,7 @@
 #include "paths.h"
 #include "risorius/core/counter_rng.h"
 #include "risorius/core/error.h"
+#include "risorius/core/read_file.h"
 #include "risorius/face/face.h"
 #include "risorius/inverse/detail/landmark_sets.h"
 #include "risorius/inverse/solve_activations.h"
@@ -127,6 +128,18 @@ TEST(SolveUnits, ASmileIsNamedAndHasFewKeys) {
     const track::Drive top = track::Timeline(script, channels).at(0.4);
     const int pull = channels.column("zygomaticus_major", Side::kLeft);
     EXPECT_NEAR(top.activation[pull], found.solved[6].drive.excitation[pull], 0.02);
+    // One thread finds the same.
+    solve_activations({.rig = kSmiling,
+                       .out = folder.path() / "alone",
+                       .landmarks = table,
+                       .fps = 30,
+                       .threads = 1});
+    for (const char* name : {"script.json", "results.json"}) {
+        const auto text = [&](const char* of) {
+            return read_file(folder.path() / of / name, {"a result", kMegabyte});
+        };
+        EXPECT_EQ(text("solved"), text("alone")) << name;
+    }
     // What moves no face is refused, and so are words that mean nothing.
     EXPECT_THROW(
         solve_activations(

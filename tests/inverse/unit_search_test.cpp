@@ -2,10 +2,18 @@
 // The parts of the search for action units: few keys for several curves, and a model through equilibria.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
 
+#include "paths.h"
 #include "risorius/inverse/detail/joint_keys.h"
+#include "risorius/inverse/detail/unit_choice.h"
 #include "risorius/inverse/detail/unit_model.h"
+#include "risorius/inverse/detail/unit_sources.h"
+#include "risorius/scene/rig_files.h"
 
 namespace risorius::inverse {
 namespace {
@@ -117,6 +125,66 @@ TEST(UnitModel, PassesThroughEveryEquilibrium) {
     EXPECT_LT((model.moved(between) - face(between)).norm(), 0.3 * before);
     const UnitModel::Tangent tangent = model.tangent(between);
     EXPECT_LT((tangent.at_zero + tangent.way * between - model.moved(between)).norm(), 1e-12);
+    const UnitModel::Tangent second = model.tangent(between, {false, true});
+    EXPECT_EQ(second.at_zero, tangent.at_zero);
+    EXPECT_EQ(second.way.col(1), tangent.way.col(1));
+    EXPECT_TRUE(second.way.col(0).isZero(0.0));
+}
+
+/// What goes with what on the adult.
+class UnitChoices : public testing::Test {
+  protected:
+    std::size_t candidate(const std::string& name) const {
+        const std::vector<UnitCandidate>& all = sources_.candidates();
+        return static_cast<std::size_t>(
+            std::find_if(all.begin(), all.end(),
+                         [&](const auto& one) { return one.name == name; }) -
+            all.begin());
+    }
+    scene::RigFiles files_ =
+        scene::read_rig_files(std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs/adult/rig.json");
+    UnitSources sources_{files_, false, false};
+};
+
+TEST_F(UnitChoices, StrangersAreUnitsThatNoExpressionHasWithTheOthers) {
+    const auto strangers = [&](const std::vector<std::string>& names) {
+        std::set<std::size_t> set;
+        for (const std::string& name : names) set.insert(candidate(name));
+        return sources_.strangers(set);
+    };
+    EXPECT_EQ(strangers({}), 0);
+    EXPECT_EQ(strangers({"AU6", "AU7", "AU12", "AU26"}), 0);
+    EXPECT_EQ(strangers({"AU6", "AU7", "AU12", "AU27"}), 1);
+    EXPECT_EQ(strangers({"AU6", "AU7", "AU12", "AU26", "zygomaticus_major"}), 0);
+    // Happy surprise, with drawn corners of the mouth
+    EXPECT_EQ(strangers({"AU1", "AU2", "AU5", "AU12", "AU25", "AU26"}), 0);
+    EXPECT_EQ(strangers({"AU1", "AU2", "AU5", "AU12", "AU25", "AU26", "AU15"}), 1);
+}
+
+// A little better is not enough for a unit that does not go with the others; much better is.
+TEST_F(UnitChoices, OfTwoUnitsThatDoEquallyWellTheOneThatGoesWithTheOthersIsChosen) {
+    const auto chosen = [&](double better) {
+        UnitModel::Tangent tangent{Eigen::VectorXd::Zero(60),
+                                   Eigen::MatrixXd::Zero(60, sources_.count())};
+        long row = 0;
+        const auto column = [&](const std::string& name) {
+            return tangent.way.col(
+                static_cast<long>(sources_.candidates()[candidate(name)].sources[0]));
+        };
+        for (const char* name : {"AU6", "AU7", "AU12"}) column(name)[row++] = 1;
+        column("AU26")[row] = 1;
+        column("AU27")[row] = 1;
+        Eigen::VectorXd goal = Eigen::VectorXd::Zero(60);
+        goal.head(row + 1).setConstant(0.5);
+        goal[row + 1] = column("AU27")[row + 1] = better;  // which AU26 lacks
+        const UnitChoice choice = choose_units(tangent, goal, sources_, {.unit_cost = 0.01});
+        std::set<std::string> out;
+        for (const UnitCandidate& one : sources_.candidates())
+            if (choice.active[one.sources[0]]) out.insert(one.name);
+        return out;
+    };
+    EXPECT_EQ(chosen(0.02), (std::set<std::string>{"AU12", "AU26", "AU6", "AU7"}));
+    EXPECT_EQ(chosen(0.3), (std::set<std::string>{"AU12", "AU27", "AU6", "AU7"}));
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ void run(ShapesArguments& arguments) {
 void add_correctives(CLI::App& command, blendshapes::ShapesOptions& options) {
     command.add_flag("!--no-correctives", options.correctives,
                      "Make only shapes, without correctives for the errors of their sums. "
-                     "risorius render --shapes cannot play such a file");
+                     "risorius render --shapes plays such a file with these errors");
     command.add_flag("--named-correctives", options.named_correctives,
                      "Give each pair of shapes a corrective of its own, jawOpen_mouthSmileLeft, as "
                      "artists edit them, and each quarter of the way of a shape. At the same size "

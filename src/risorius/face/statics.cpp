@@ -7,6 +7,15 @@ namespace risorius::face {
 
 const Points& Statics::nodes() const { return face_->now.x; }
 
+KeptEquilibrium Statics::keep() const {
+    const Equilibrium::Pose pose = face_->equilibrium_pose();
+    return {pose.x, pose.activation, pose.drive};
+}
+
+void Statics::go_back_to(const KeptEquilibrium& kept) {
+    face_->go_back_to({kept.nodes, kept.activation, kept.drive, {}});
+}
+
 Points Statics::gradient(const Points& nodes, const Eigen::VectorXd& activation,
                          const track::Drive& drive) const {
     return face_->equilibrium->gradient(face_->equilibrium_pose(), nodes, activation, drive);

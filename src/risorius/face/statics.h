@@ -20,6 +20,13 @@ namespace risorius::face {
 
 struct FaceImpl;
 
+/// An equilibrium of a face that was kept, to begin another search there.
+struct KeptEquilibrium {
+    Points nodes;                ///< n x 3, m
+    Eigen::VectorXd activation;  ///< per column, 0..1
+    track::Drive drive;
+};
+
 /// A view of a Face, from Face::statics(). It refers to the equilibrium of the last Face::solve_equilibrium(). The channels of
 /// the jaw must place the jaw: all functions except nodes() and pull_back() throw std::logic_error while muscles move it.
 /// Rows of x are the nodes of the tissue, then those of the volume muscles.
@@ -29,6 +36,11 @@ class Statics {
 
     /// Returns the current node positions x, n x 3, m. The next step or equilibrium overwrites them.
     const Points& nodes() const;
+
+    /// Returns a copy of the last equilibrium.
+    KeptEquilibrium keep() const;
+    /// Puts the face where it, or an equal one, was kept. What it did before has no effect on what it does next, as after Face::start().
+    void go_back_to(const KeptEquilibrium& kept);
 
     /// Returns g, n x 3, N, at any `nodes` (n x 3, m), `activation` (per column, 0..1) and drive. It is zero in equilibrium and on
     /// fixed nodes.

@@ -322,10 +322,10 @@ FitTarget solve_as_units(face::FaceTeam& team, const scene::RigFiles& files,
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     const UnitBench bench(team, sources, vertices);
-    std::vector<UnitState> known;
+    std::vector<KnownUnits> known;
     const auto max_m = [&] {
         known = bench.known(files, options.quality, monitor.subrange(0, 0.3));
-        return largest_motions(points, vertices, known[0].way);
+        return largest_motions(points, vertices, known[0].state.way);
     };
     const FitTarget given =
         given_landmarks(options.landmarks, landmark_options(options), points, max_m, head.vertices);

@@ -288,12 +288,19 @@ FacePose FaceImpl::pose_of(const State& state) const {
     return out;
 }
 
-void FaceImpl::start(const DriveAt& drive) {
-    const track::Drive first = complete(drive(0.0));
-    const Eigen::VectorXd activation = steady_activation(first);
+void FaceImpl::forget() {
     done = 0;
     history.clear();
     tissue.forget_contacts();
+    equilibrium->forget();
+    tissue.solids().forget();
+    last_move.resize(0, 3);
+}
+
+void FaceImpl::start(const DriveAt& drive) {
+    const track::Drive first = complete(drive(0.0));
+    const Eigen::VectorXd activation = steady_activation(first);
+    forget();
     dynamics->set_activation(activation);
     const bool at_rest = activation.isZero(0.0) &&
                          driven_jaw.wanted(first).isApprox(Rigid::Identity(), 0.0) &&
@@ -303,9 +310,6 @@ void FaceImpl::start(const DriveAt& drive) {
     now.drive.kinematic.fill(0.0);
     now.jaw = {};
     motion.start(now.x, head_motion(head, first));
-    equilibrium->forget();
-    tissue.solids().forget();
-    last_move.resize(0, 3);
     if (at_rest) {
         now.activation = activation;
         now.drive = first;
@@ -316,6 +320,19 @@ void FaceImpl::start(const DriveAt& drive) {
     } else {
         solve_equilibrium(activation, first, {.iterations = kRestIterations});
     }
+}
+
+void FaceImpl::go_back_to(State found) {
+    if (driven_jaw.by_muscles())
+        throw std::logic_error("a kept equilibrium while muscles move the jaw");
+    forget();
+    equilibrium->forget(true);
+    dynamics->set_activation(found.activation);
+    now = std::move(found);
+    set_boundary_conditions(now.activation, now.drive);
+    motion.start(now.x, head_motion(head, now.drive));
+    before = earlier = now;
+    in_step = false;
 }
 
 double FaceImpl::substeps_until(double t_s) const {

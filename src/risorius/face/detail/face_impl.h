@@ -100,6 +100,8 @@ struct FaceImpl {
     void set_boundary_conditions(const Eigen::VectorXd& activation, const track::Drive& drive);
 
     void start(const DriveAt& drive);
+    /// Puts the face into an equilibrium that was found before. Throws std::logic_error when muscles move the jaw.
+    void go_back_to(State found);
     StepStats substep(const DriveAt& drive_at);
     StepStats solve_equilibrium(const Eigen::VectorXd& activation, const track::Drive& drive,
                                 const StaticOptions& options);
@@ -124,6 +126,8 @@ struct FaceImpl {
     Points muscle_vertices(double fraction);
 
   private:
+    /// Forgets all that was simulated, except the state.
+    void forget();
     bool jumped() const;  ///< the drive has jumped in one of the last two substeps
     StateWeights weights(double fraction) const;
     track::Drive drive_between(const StateWeights& weights) const;

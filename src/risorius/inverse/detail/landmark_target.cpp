@@ -18,6 +18,8 @@ namespace {
 // Landmarks that no muscle moves farther determine the motion of the head
 constexpr double kOnTheSkull_m = 1e-3;
 constexpr int kRounds = 4;  // for the motion of a head
+// How much earlier a frame may come than its rate says, in frames: files round their times.
+constexpr double kEarly = 0.05;
 
 std::vector<Vec3> list_of(const Points& points) {
     std::vector<Vec3> out;
@@ -176,7 +178,7 @@ FitTarget given_landmarks(const std::filesystem::path& file, const LandmarkOptio
     }
     double next_s = seen.times_s[0];
     for (std::size_t t = 0; t < seen.times_s.size(); ++t) {
-        if (seen.times_s[t] < next_s - 1e-9) continue;
+        if (seen.times_s[t] < next_s - kEarly / options.fps) continue;
         next_s = std::max(next_s + 1.0 / options.fps, seen.times_s[t]);
         const Points moved =
             size.scale * (head.brought_back(t, sitter) - sitter) * size.rotation.transpose();

@@ -22,7 +22,6 @@ constexpr double kTolerated_m = 5e-5, kPlanesMove_m = 1e-4;  // as for blend sha
 constexpr double kUnitAt = 0.7, kMuscleAt = 0.3;
 constexpr double kShared_mm = 15;  // half width of the strip in the middle that both sides share
 constexpr double kProbe = 0.5;
-constexpr int kWalks = 2;
 // What faces show most, and how strongly
 constexpr std::array kUsual{"happiness", "sadness",  "anger", "fear",          "disgust",
                             "surprise",  "contempt", "pain",  "embarrassment", "smile_amused"};
@@ -57,35 +56,6 @@ void UnitBench::go_on_to(face::Face& face, const Eigen::VectorXd& weight,
                             .planes_m = kPlanesMove_m,
                             .stopped = monitor.stopped});
     monitor.throw_if_stopped();
-}
-
-Eigen::VectorXd UnitBench::Walk::moved(const Eigen::VectorXd& weight,
-                                       const ProgressMonitor& monitor) {
-    face::Face& face = bench_.team_.first();
-    if (begun_)
-        bench_.go_on_to(face, weight, monitor);
-    else
-        bench_.go_to(face, weight, monitor);
-    begun_ = true;
-    return bench_.displacement(face.pose().vertices);
-}
-
-std::vector<Eigen::VectorXd> UnitBench::moved_in_turn(const std::vector<Eigen::VectorXd>& weights,
-                                                      const ProgressMonitor& monitor) const {
-    std::vector<Eigen::VectorXd> out(weights.size());
-    team_.each(kWalks, [&](int piece, face::Face& face) {
-        const auto end_of = [&](int p) {
-            return weights.size() * static_cast<std::size_t>(p) / kWalks;
-        };
-        for (std::size_t i = end_of(piece); i < end_of(piece + 1); ++i) {
-            if (i == end_of(piece))
-                go_to(face, weights[i], monitor);
-            else
-                go_on_to(face, weights[i], monitor);
-            out[i] = displacement(face.pose().vertices);
-        }
-    });
-    return out;
 }
 
 std::vector<Eigen::VectorXd> UnitBench::moved(const std::vector<Eigen::VectorXd>& weights,
@@ -134,7 +104,20 @@ Eigen::MatrixXd UnitBench::derivatives(face::Face& face, std::span<const int> co
     return out;
 }
 
-Eigen::MatrixXd UnitBench::by_sources(const Inputs& inputs, const Eigen::MatrixXd& by) const {
+Eigen::MatrixXd UnitBench::derivatives(
+    const Inputs& inputs, const std::function<void(int task, face::Face& face)>& place) const {
+    // The second task does the channels, too.
+    const std::size_t half = inputs.columns.size() / 2;
+    const std::span<const int> columns(inputs.columns);
+    std::array<Eigen::MatrixXd, 2> parts;
+    team_.each(2, [&](int task, face::Face& face) {
+        place(task, face);
+        parts[static_cast<std::size_t>(task)] =
+            task == 0 ? derivatives(face, columns.first(half), {})
+                      : derivatives(face, columns.subspan(half), inputs.channels);
+    });
+    Eigen::MatrixXd by(parts[0].rows(), parts[0].cols() + parts[1].cols());
+    by << parts[0], parts[1];
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(by.rows(), sources_.count());
     for (std::size_t s = 0; s < inputs.changes.size(); ++s) {
         auto way = out.col(static_cast<long>(s));
@@ -147,36 +130,15 @@ Eigen::MatrixXd UnitBench::by_sources(const Inputs& inputs, const Eigen::MatrixX
     return out;
 }
 
-UnitState UnitBench::Walk::state(const Eigen::VectorXd& weight, const std::vector<bool>& wanted,
-                                 const ProgressMonitor& monitor) {
-    UnitState out{weight, moved(weight, monitor), {}};
-    const Inputs inputs = bench_.inputs_of(weight, wanted);
-    out.way = bench_.by_sources(
-        inputs, bench_.derivatives(bench_.team_.first(), inputs.columns, inputs.channels));
-    monitor.throw_if_stopped();
-    return out;
-}
-
-UnitState UnitBench::state(const Eigen::VectorXd& weight, const ProgressMonitor& monitor) const {
-    const Inputs inputs = inputs_of(weight, {});
-    UnitState out{weight, {}, {}};
-    // Each of two tasks does every other column; the second one does the channels, too.
-    const std::size_t half = inputs.columns.size() / 2;
-    const std::span<const int> columns(inputs.columns);
-    std::array<Eigen::MatrixXd, 2> parts;
-    team_.each(2, [&](int part, face::Face& face) {
+KnownUnits UnitBench::state(const Eigen::VectorXd& weight, const ProgressMonitor& monitor) const {
+    KnownUnits out{{weight, {}, {}}, {}};
+    out.state.way = derivatives(inputs_of(weight, {}), [&](int task, face::Face& face) {
         go_to(face, weight, monitor);
-        if (part == 0) {
-            out.moved = displacement(face.pose().vertices);
-            parts[0] = derivatives(face, columns.first(half), {});
-        } else {
-            parts[1] = derivatives(face, columns.subspan(half), inputs.channels);
-        }
-        monitor.throw_if_stopped();
+        if (task > 0) return;
+        out.state.moved = displacement(face.pose().vertices);
+        out.nodes = face.statics().nodes();
     });
-    Eigen::MatrixXd by(parts[0].rows(), parts[0].cols() + parts[1].cols());
-    by << parts[0], parts[1];
-    out.way = by_sources(inputs, by);
+    monitor.throw_if_stopped();
     return out;
 }
 
@@ -214,13 +176,19 @@ std::vector<Eigen::VectorXd> UnitBench::usual_weights(const scene::RigFiles& fil
     return out;
 }
 
+Points UnitBench::nodes_at_rest() const {
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(sources_.count());
+    const track::Drive rest = sources_.drive_of(none);
+    team_.first().start([&](double) { return rest; });
+    return team_.first().statics().nodes();
+}
+
 std::string UnitBench::key_of(const scene::RigFiles& files, const std::string& quality) const {
     // The forces of all muscles, and of tissue that is stretched, stand for whatever the face is made of.
-    face::Face& face = team_.first();
+    const Points nodes = nodes_at_rest();
+    const face::Face& face = team_.first();
     track::Drive drive;
     drive.excitation = Eigen::VectorXd::Zero(files.rig.channels().column_count());
-    face.start([&](double) { return drive; });
-    const Points nodes = face.statics().nodes();
     CacheKey key("inverse/known_units");
     key.add(read_file(files.file, {"a rig", kMegabyte * 100})).add(quality).add(vertices_);
     key.add(face.head().vertices);
@@ -236,27 +204,33 @@ std::string UnitBench::key_of(const scene::RigFiles& files, const std::string& q
     return key.finish();
 }
 
-std::vector<UnitState> UnitBench::known(const scene::RigFiles& files, const std::string& quality,
-                                        const ProgressMonitor& monitor) const {
-    // One after the other: the weights of a state, what they move, and the derivatives.
+std::vector<KnownUnits> UnitBench::known(const scene::RigFiles& files, const std::string& quality,
+                                         const ProgressMonitor& monitor) const {
+    // One after the other: the weights of a state, what they move, the derivatives, and the nodes.
     struct Kept {
         std::vector<double> numbers;
     };
-    const auto keep = [](const UnitState& state, Kept& kept) {
-        for (const Eigen::MatrixXd& part :
-             {Eigen::MatrixXd(state.weight), Eigen::MatrixXd(state.moved), state.way})
+    const auto keep = [](const KnownUnits& known, Kept& kept) {
+        const auto add = [&](const auto& part) {
             kept.numbers.insert(kept.numbers.end(), part.data(), part.data() + part.size());
+        };
+        add(known.state.weight);
+        add(known.state.moved);
+        add(known.state.way);
+        add(known.nodes);
     };
+    const Points rest = nodes_at_rest();
     const long sources = sources_.count(), rows = 3 * static_cast<long>(vertices_.size());
-    const auto one = static_cast<std::size_t>(sources + rows + rows * sources);
+    const auto one = static_cast<std::size_t>(sources + rows + rows * sources + rest.size());
     const std::vector<Eigen::VectorXd> usual = usual_weights(files);
     const Kept kept = cached_result(
         key_of(files, quality),
         [&] {
             Kept made;
             constexpr double kShapes = 0.3;
-            keep({Eigen::VectorXd::Zero(sources), Eigen::VectorXd::Zero(rows),
-                  unit_shapes(monitor.subrange(0, kShapes))},
+            keep({{Eigen::VectorXd::Zero(sources), Eigen::VectorXd::Zero(rows),
+                   unit_shapes(monitor.subrange(0, kShapes))},
+                  rest},
                  made);
             for (std::size_t i = 0; i < usual.size(); ++i) {
                 monitor.report(kShapes + (1 - kShapes) * static_cast<double>(i) /
@@ -271,12 +245,19 @@ std::vector<UnitState> UnitBench::known(const scene::RigFiles& files, const std:
             if (result.numbers.size() != one * (usual.size() + 1))
                 throw std::out_of_range("states of units");
         });
-    std::vector<UnitState> out;
+    std::vector<KnownUnits> out;
     for (std::size_t i = 0; i < kept.numbers.size(); i += one) {
         const double* at = &kept.numbers[i];
-        out.push_back({Eigen::Map<const Eigen::VectorXd>(at, sources),
-                       Eigen::Map<const Eigen::VectorXd>(at + sources, rows),
-                       Eigen::Map<const Eigen::MatrixXd>(at + sources + rows, rows, sources)});
+        const auto next = [&](long so_many_rows, long columns) {
+            const double* const from = at;
+            at += so_many_rows * columns;
+            return Eigen::Map<const Eigen::MatrixXd>(from, so_many_rows, columns);
+        };
+        KnownUnits& known = out.emplace_back();
+        known.state.weight = next(sources, 1);
+        known.state.moved = next(rows, 1);
+        known.state.way = next(rows, sources);
+        known.nodes = Eigen::Map<const Points>(at, rest.rows(), 3);
     }
     return out;
 }

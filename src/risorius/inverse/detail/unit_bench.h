@@ -2,20 +2,29 @@
 /// \file
 /// Simulates equilibria under weights of units on several equal faces at once, and what points do in them.
 ///
-/// Every equilibrium starts from rest, so that results do not depend on the number of faces or on the order.
+/// Every equilibrium starts from rest, or from one that was found before and is kept, so that results do not depend on the number of
+/// faces.
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
+#include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "risorius/core/progress_monitor.h"
 #include "risorius/face/face_team.h"
+#include "risorius/face/statics.h"
 #include "risorius/inverse/detail/unit_model.h"
 #include "risorius/inverse/detail/unit_sources.h"
 
 namespace risorius::inverse {
+
+/// An equilibrium under weights that was found earlier, from which a search may begin.
+struct KnownUnits {
+    UnitState state;
+    Points nodes;  ///< face::KeptEquilibrium::nodes
+};
 
 class UnitBench {
   public:
@@ -26,35 +35,48 @@ class UnitBench {
     std::vector<Eigen::VectorXd> moved(const std::vector<Eigen::VectorXd>& weights,
                                        const ProgressMonitor& monitor) const;
 
-    /// The same, each sought from the one before it, which takes a third of the time where they are near: list them in the order of a
-    /// motion. Each of kWalks faces has a piece of the list, however many threads there are.
-    std::vector<Eigen::VectorXd> moved_in_turn(const std::vector<Eigen::VectorXd>& weights,
-                                               const ProgressMonitor& monitor) const;
-
     /// The equilibrium under weights, with the derivatives of the points by the weights of all sources. Throws Interrupted.
-    UnitState state(const Eigen::VectorXd& weight, const ProgressMonitor& monitor) const;
+    KnownUnits state(const Eigen::VectorXd& weight, const ProgressMonitor& monitor) const;
 
     /// What is known of a rig before anything is sought. First the face at rest with the unit shapes: what each source moves at part of its
     /// weight, over that part. Both sides of a unit are simulated at once, and what they move is shared between them. Then expressions
     /// that people show, each with its derivatives. Kept in the cache for the next run with this rig.
-    std::vector<UnitState> known(const scene::RigFiles& files, const std::string& quality,
-                                 const ProgressMonitor& monitor) const;
+    std::vector<KnownUnits> known(const scene::RigFiles& files, const std::string& quality,
+                                  const ProgressMonitor& monitor) const;
 
     const std::vector<int>& vertices() const { return vertices_; }
     const UnitSources& sources() const { return sources_; }
 
-    /// Equilibria one after the other on one face, each sought from the one before it; the first from rest.
-    class Walk {
+    /// Equilibria of a search, each sought from the nearest one that is known, which takes a third of the time of one from rest, or less.
+    /// Where each begins depends on the calls alone, and not on the faces or threads.
+    class Search {
       public:
-        explicit Walk(const UnitBench& bench) : bench_(bench) {}
+        /// `known`: of the bench, the rest first.
+        Search(const UnitBench& bench, const std::vector<KnownUnits>& known);
+        /// The displacements of the points under weights.
         Eigen::VectorXd moved(const Eigen::VectorXd& weight, const ProgressMonitor& monitor);
-        /// The same with the derivatives of the points by the weights of the `wanted` sources. Those of the others are 0.
+        /// Those under each of a list, in kWalks pieces at once: list weights in the order of a motion. Each piece begins with the weights
+        /// that are nearest to what was found before the call.
+        std::vector<Eigen::VectorXd> moved(const std::vector<Eigen::VectorXd>& weights,
+                                           const ProgressMonitor& monitor);
+        /// The equilibrium with the derivatives of the points by the weights of the `wanted` sources. Those of the others are 0.
         UnitState state(const Eigen::VectorXd& weight, const std::vector<bool>& wanted,
                         const ProgressMonitor& monitor);
 
       private:
+        struct Found {
+            Eigen::VectorXd weight;
+            face::KeptEquilibrium at;
+        };
+        double apart(const Found& found, const Eigen::VectorXd& weight) const;
+        /// The number of the nearest one.
+        std::size_t nearest(const std::vector<Found>& found, const Eigen::VectorXd& weight) const;
+
         const UnitBench& bench_;
-        bool begun_ = false;
+        /// Of what each weight moves: it makes distances of weights distances of the points
+        Eigen::ArrayXd size_;
+        std::vector<Found> found_;
+        bool first_is_there_ = false;  ///< the first face of the team is in the last of them
     };
 
   private:
@@ -68,7 +90,9 @@ class UnitBench {
     /// Of the points by numbers of the drive, in the equilibrium of a face.
     Eigen::MatrixXd derivatives(face::Face& face, std::span<const int> columns,
                                 std::span<const track::Kinematic> channels) const;
-    Eigen::MatrixXd by_sources(const Inputs& inputs, const Eigen::MatrixXd& by) const;
+    /// The same by all inputs and then by the sources, in two tasks at once. `place` puts a face into the equilibrium for a task, 0 or 1.
+    Eigen::MatrixXd derivatives(const Inputs& inputs,
+                                const std::function<void(int task, face::Face& face)>& place) const;
     void go_to(face::Face& face, const Eigen::VectorXd& weight,
                const ProgressMonitor& monitor) const;
     /// From where the face is.
@@ -78,7 +102,8 @@ class UnitBench {
     std::string key_of(const scene::RigFiles& files, const std::string& quality) const;
     Eigen::VectorXd displacement(const Points& vertices) const;  ///< of the points, m
     Eigen::MatrixXd unit_shapes(const ProgressMonitor& monitor) const;
-    Points at_rest() const;  ///< the points, m
+    Points at_rest() const;        ///< the points, m
+    Points nodes_at_rest() const;  ///< puts the first face there
 
     face::FaceTeam& team_;
     const UnitSources& sources_;

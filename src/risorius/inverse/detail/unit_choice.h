@@ -5,6 +5,9 @@
 ///   minimise over sets S and 0 <= w <= 1   1/2 |u0 + J w - g|^2 / |g|^2 + ridge/2 |w|^2 + sum_i price w_i + sum of the costs of S,
 ///   w = 0 outside S
 ///
+/// S costs a little more for each of its units that is a stranger to the expression that has most of them, so that of two sets that do
+/// equally well the one is chosen that people show.
+///
 /// Candidates are added one after the other, each the one that helps most. Then a candidate is exchanged for another, or left out, as long
 /// as that helps. Faults of the first choices do not stay as with a greedy choice.
 #pragma once

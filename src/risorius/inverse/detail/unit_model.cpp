@@ -18,7 +18,12 @@ constexpr double kNoShare = 1e-4;
 UnitModel::UnitModel(UnitState rest)
     : size_(rest.way.colwise().norm().transpose().array()),
       resolution_(kResolution * std::max(1e-12, size_.maxCoeff())) {
-    states_.push_back(std::move(rest));
+    add(std::move(rest));
+}
+
+void UnitModel::add(UnitState state) {
+    at_zero_.push_back(state.moved - state.way * state.weight);
+    states_.push_back(std::move(state));
 }
 
 void UnitModel::add(const Eigen::VectorXd& weight, const Eigen::VectorXd& moved) {
@@ -32,7 +37,7 @@ void UnitModel::add(const Eigen::VectorXd& weight, const Eigen::VectorXd& moved)
         made.way += (moved - made.moved - made.way * step) * scaled.transpose() / length;
     made.weight = weight;
     made.moved = moved;
-    states_.push_back(std::move(made));
+    add(std::move(made));
 }
 
 std::vector<double> UnitModel::shares(const Eigen::VectorXd& weight) const {
@@ -49,14 +54,17 @@ std::vector<double> UnitModel::shares(const Eigen::VectorXd& weight) const {
     return out;
 }
 
-UnitModel::Tangent UnitModel::tangent(const Eigen::VectorXd& weight) const {
+UnitModel::Tangent UnitModel::tangent(const Eigen::VectorXd& weight,
+                                      const std::vector<bool>& active) const {
     const std::vector<double> share = shares(weight);
     Tangent out{Eigen::VectorXd::Zero(states_[0].moved.size()),
                 Eigen::MatrixXd::Zero(states_[0].way.rows(), states_[0].way.cols())};
     for (std::size_t k = 0; k < states_.size(); ++k) {
         if (share[k] == 0) continue;
-        out.at_zero += share[k] * (states_[k].moved - states_[k].way * states_[k].weight);
-        out.way += share[k] * states_[k].way;
+        out.at_zero += share[k] * at_zero_[k];
+        for (long s = 0; s < weight.size(); ++s)
+            if (active.empty() || active[static_cast<std::size_t>(s)])
+                out.way.col(s) += share[k] * states_[k].way.col(s);
     }
     return out;
 }

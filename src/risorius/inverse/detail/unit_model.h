@@ -37,9 +37,10 @@ class UnitModel {
     explicit UnitModel(UnitState rest);
     void add(const Eigen::VectorXd& weight, const Eigen::VectorXd& moved);
     /// With derivatives.
-    void add(UnitState state) { states_.push_back(std::move(state)); }
+    void add(UnitState state);
 
-    Tangent tangent(const Eigen::VectorXd& weight) const;
+    /// `active`: the sources whose columns are wanted; those of the others are 0. Empty: all.
+    Tangent tangent(const Eigen::VectorXd& weight, const std::vector<bool>& active = {}) const;
     Eigen::VectorXd moved(const Eigen::VectorXd& weight) const;
 
   private:
@@ -50,8 +51,9 @@ class UnitModel {
     }
 
     std::vector<UnitState> states_;
-    Eigen::ArrayXd size_;  ///< s
-    double resolution_;    ///< e
+    std::vector<Eigen::VectorXd> at_zero_;  ///< u_k - J_k w_k
+    Eigen::ArrayXd size_;                   ///< s
+    double resolution_;                     ///< e
 };
 
 }  // namespace risorius::inverse

@@ -34,15 +34,17 @@ constexpr double kOverNoise = 5;
 
 class UnitSolver {
   public:
-    UnitSolver(const UnitBench& bench, const FitTarget& given, std::vector<UnitState> known,
+    UnitSolver(const UnitBench& bench, const FitTarget& given, std::vector<KnownUnits> known,
                const UnitSolveOptions& options, const ProgressMonitor& monitor)
         : bench_(bench),
           options_(options),
           monitor_(monitor),
           times_s_(given.times_s),
           root_(roots_of(bench, given)),
-          model_(weighted(std::move(known.at(0)))) {
-        for (std::size_t k = 1; k < known.size(); ++k) model_.add(weighted(std::move(known[k])));
+          equilibria_(bench, known),
+          model_(weighted(std::move(known.at(0).state))) {
+        for (std::size_t k = 1; k < known.size(); ++k)
+            model_.add(weighted(std::move(known[k].state)));
         const std::vector<int>& vertices = bench.vertices();
         points_ = root_.squaredNorm() / 3;
         target_.resize(root_.size(), static_cast<long>(given.fields.size()));
@@ -121,8 +123,9 @@ class UnitSolver {
         if (share_.size() > 0) moved.array() *= share_.col(frame).array();
         return moved;
     }
-    UnitModel::Tangent tangent(long frame, const Eigen::VectorXd& weight) const {
-        UnitModel::Tangent out = model_.tangent(weight);
+    UnitModel::Tangent tangent(long frame, const Eigen::VectorXd& weight,
+                               const std::vector<bool>& active = {}) const {
+        UnitModel::Tangent out = model_.tangent(weight, active);
         if (share_.size() == 0) return out;
         out.at_zero = seen(frame, std::move(out.at_zero));
         out.way = share_.col(frame).asDiagonal() * out.way;
@@ -139,7 +142,7 @@ class UnitSolver {
     Eigen::VectorXd fitted(long frame, Eigen::VectorXd near, const UnitFit& how) const {
         for (int round = 0; round < kTangents; ++round) {
             const Eigen::VectorXd next =
-                fit_weights(tangent(frame, near), target_.col(frame), active_, near, how);
+                fit_weights(tangent(frame, near, active_), target_.col(frame), active_, near, how);
             const double change = (next - near).cwiseAbs().maxCoeff();
             near = next;
             constexpr double kSame = 1e-3;
@@ -179,7 +182,6 @@ class UnitSolver {
         const std::vector<bool> before = active_;
         Eigen::VectorXd w = Eigen::VectorXd::Zero(bench_.sources().count());
         UnitChoice best;
-        UnitBench::Walk walk(bench_);
         double least = std::numeric_limits<double>::infinity();
         const auto choose = [&] {
             // What is known of the rig near the first choice may tell a better one.
@@ -196,7 +198,7 @@ class UnitSolver {
             double last = std::numeric_limits<double>::infinity();
             for (int round = 0; round < kCorrections; ++round) {
                 if (round > 0) w = fitted(frame, w);
-                const double left = simulate_one(w, frame, walk);
+                const double left = simulate_one(w, frame);
                 const bool ends = left > kGain * last;
                 last = left;
                 if (left < least) {
@@ -211,7 +213,7 @@ class UnitSolver {
         for (int round = 0; round < kCloseChoices && least > kNearEnough * options_.least_gain_m;
              ++round) {
             w = best.weight;
-            add_state(w, frame, walk);
+            add_state(w, frame);
             const double last_least = least;
             choose();
             if (least > kGain * last_least) break;
@@ -220,7 +222,7 @@ class UnitSolver {
         w = best.weight;
         for (int round = 0; round < kCheckRounds && least > options_.least_gain_m; ++round) {
             w = fitted(frame, w);
-            const double left = simulate_one(w, frame, walk);
+            const double left = simulate_one(w, frame);
             if (left < options_.least_gain_m || left > kGain * least) break;
             least = left;
         }
@@ -231,7 +233,7 @@ class UnitSolver {
 
     /// Adds the equilibrium under weights to the model with its derivatives: by the sources that are used, and by those of which a little
     /// would help most. Of all others the model has good ones.
-    void add_state(const Eigen::VectorXd& w, long frame, UnitBench::Walk& walk) {
+    void add_state(const Eigen::VectorXd& w, long frame) {
         const UnitModel::Tangent now = model_.tangent(w), shown = tangent(frame, w);
         const Eigen::VectorXd left = target_.col(frame) - shown.at_zero - shown.way * w;
         std::vector<std::pair<double, std::size_t>> help;
@@ -243,15 +245,15 @@ class UnitSolver {
         std::vector<bool> wanted = active_;
         for (std::size_t i = 0; i < std::min(help.size(), kRivals); ++i)
             wanted[help[i].second] = true;
-        UnitState state = weighted(walk.state(w, wanted, quiet()));
+        UnitState state = weighted(equilibria_.state(w, wanted, quiet()));
         for (std::size_t s = 0; s < wanted.size(); ++s)
             if (!wanted[s]) state.way.col(static_cast<long>(s)) = now.way.col(static_cast<long>(s));
         model_.add(std::move(state));
     }
 
     /// Adds the equilibrium under weights to the model. Returns the RMS distance from the goal, m.
-    double simulate_one(const Eigen::VectorXd& w, long frame, UnitBench::Walk& walk) {
-        const Eigen::VectorXd moved = root_.asDiagonal() * walk.moved(w, quiet());
+    double simulate_one(const Eigen::VectorXd& w, long frame) {
+        const Eigen::VectorXd moved = root_.asDiagonal() * equilibria_.moved(w, quiet());
         model_.add(w, moved);
         return rms_of(seen(frame, moved) - target_.col(frame));
     }
@@ -294,7 +296,7 @@ class UnitSolver {
     double simulate(const std::vector<long>& frames) {
         std::vector<Eigen::VectorXd> weights;
         for (const long t : frames) weights.emplace_back(weight_.col(t));
-        const std::vector<Eigen::VectorXd> moved = bench_.moved_in_turn(weights, quiet());
+        const std::vector<Eigen::VectorXd> moved = equilibria_.moved(weights, quiet());
         double most = 0;
         std::vector<Eigen::VectorXd> found;
         for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -391,7 +393,7 @@ class UnitSolver {
     std::vector<FrameCost> costs() const {
         std::vector<FrameCost> out;
         for (long t = 0; t < target_.cols(); ++t) {
-            const UnitModel::Tangent at = tangent(t, weight_.col(t));
+            const UnitModel::Tangent at = tangent(t, weight_.col(t), active_);
             Eigen::MatrixXd way(target_.rows(), static_cast<long>(channels_.size()));
             for (std::size_t c = 0; c < channels_.size(); ++c)
                 way.col(static_cast<long>(c)) =
@@ -478,6 +480,7 @@ class UnitSolver {
     double size_ = 0;         ///< its squares in the frame of the largest motion
     Eigen::Index peak_ = 0;   ///< this frame
     Eigen::VectorXd price_;   ///< of a source, relative to that of a unit
+    UnitBench::Search equilibria_;
     UnitModel model_;
     std::vector<bool> active_;  ///< by source: whether it may have a weight
     Eigen::MatrixXd weight_;    ///< sources x frames
@@ -488,7 +491,7 @@ class UnitSolver {
 }  // namespace
 
 UnitSolution solve_units(const UnitBench& bench, const FitTarget& given,
-                         std::vector<UnitState> known, const UnitSolveOptions& options,
+                         std::vector<KnownUnits> known, const UnitSolveOptions& options,
                          const ProgressMonitor& monitor) {
     return UnitSolver(bench, given, std::move(known), options, monitor).solve();
 }

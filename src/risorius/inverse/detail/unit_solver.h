@@ -50,7 +50,7 @@ struct UnitSolution {
 
 /// `known`: that of the bench. Throws Interrupted.
 UnitSolution solve_units(const UnitBench& bench, const FitTarget& given,
-                         std::vector<UnitState> known, const UnitSolveOptions& options,
+                         std::vector<KnownUnits> known, const UnitSolveOptions& options,
                          const ProgressMonitor& monitor);
 
 }  // namespace risorius::inverse

@@ -16,6 +16,7 @@ UnitSources::UnitSources(const scene::RigFiles& files, bool pressure, bool tongu
     add(files, "facs", true, pressure, tongue);
     add(files, "muscles", false, pressure, tongue);
     set_costs(files.rig.expressions);
+    set_expressions(files.rig.expressions);
 }
 
 // What landmarks hardly tell apart, such as AU25 and AU16, prior knowledge does: the negative logarithm of the share of expressions
@@ -33,6 +34,30 @@ void UnitSources::set_costs(const track::Expressions& expressions) {
     for (UnitCandidate& one : candidates_)
         one.cost = one.is_unit ? 1 + kOfRarity * std::log((most + 1.0) / (count[one.name] + 1.0))
                                : kOfMuscle;
+}
+
+void UnitSources::set_expressions(const track::Expressions& expressions) {
+    const auto add = [&](const track::ExpressionParts& parts) {
+        std::vector<bool>& out = expressions_.emplace_back(candidates_.size(), false);
+        for (std::size_t c = 0; c < candidates_.size(); ++c)
+            for (const track::ExpressionUnit& unit : parts.units)
+                if (candidates_[c].is_unit && unit.use.unit == candidates_[c].name) out[c] = true;
+    };
+    for (const track::Expression& one : expressions.list) {
+        add(one.parts);
+        for (const auto& variant : one.variants) add(variant.parts);
+    }
+}
+
+int UnitSources::strangers(const std::set<std::size_t>& candidates) const {
+    int least = 0;
+    for (const std::size_t c : candidates) least += candidates_[c].is_unit;
+    for (const std::vector<bool>& expression : expressions_) {
+        int count = 0;
+        for (const std::size_t c : candidates) count += candidates_[c].is_unit && !expression[c];
+        least = std::min(least, count);
+    }
+    return least;
 }
 
 void UnitSources::add(const scene::RigFiles& files, const std::string& set, bool units,

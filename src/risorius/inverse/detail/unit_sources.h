@@ -6,6 +6,7 @@
 /// plays the weights that were found.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ class UnitSources {
 
     long count() const { return static_cast<long>(sources_.size()); }
     const std::vector<UnitCandidate>& candidates() const { return candidates_; }
+    /// How many units of a set of candidates the expression, or form of one, lacks that has most of them. Muscles do not count.
+    int strangers(const std::set<std::size_t>& candidates) const;
     const UnitSource& at(std::size_t source) const { return sources_[source]; }
 
     /// The weights of the units of an expression at an intensity; 0 for those that are no sources.
@@ -51,12 +54,14 @@ class UnitSources {
 
   private:
     void set_costs(const track::Expressions& expressions);
+    void set_expressions(const track::Expressions& expressions);
     void add(const scene::RigFiles& files, const std::string& set, bool units, bool pressure,
              bool tongue);
 
     track::ChannelTable channels_;
     std::vector<UnitSource> sources_;
     std::vector<UnitCandidate> candidates_;
+    std::vector<std::vector<bool>> expressions_;  ///< each: by candidate, whether it is a part
 };
 
 }  // namespace risorius::inverse

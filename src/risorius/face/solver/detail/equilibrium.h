@@ -48,10 +48,10 @@ class Equilibrium {
                                 Points& x);
     /// Says that the pose or the forces have changed, so that the factorisation of H is out of date.
     void moved() { factored_ = false; }
-    /// Forgets all factorisations, so that the next equilibrium depends on its arguments alone.
-    void forget() {
+    /// Forgets all factorisations, so that the next equilibrium depends on its arguments alone. `near`: it begins in another one.
+    void forget(bool near = false) {
         moved();
-        solver_.forget();
+        solver_.forget(near);
     }
 
     /// Returns g at any nodes for any drive, n x 3, N; zero on fixed nodes. Afterwards the boundary conditions are those of `pose`.

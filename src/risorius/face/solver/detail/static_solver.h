@@ -43,8 +43,9 @@ class StaticSolver {
                    solve::Precision precision = solve::Precision::kSingle);
     /// Computes y = H^-1 b, n x 3 each, with the last factor. Fixed rows of y are zero.
     void solve(const Points& b, Points& y) const;
-    /// Forgets the last factor, so that the result of the next solve_equilibrium() depends on its arguments alone.
-    void forget();
+    /// Forgets the last factor, so that the result of the next solve_equilibrium() depends on its arguments alone. `near`: it begins in
+    /// an equilibrium, so that H is factorised there at once.
+    void forget(bool near = false);
 
     long factors() const { return factors_; }  ///< number of factorisations so far
 
@@ -62,7 +63,7 @@ class StaticSolver {
 
     FaceTissue& tissue_;
     std::unique_ptr<Linear> linear_;
-    bool known_ = false;
+    bool known_ = false, near_ = false;
     long factors_ = 0;
     std::vector<std::pair<int, int>> touched_;  ///< nodes of pairs that were in contact, sorted
     solve::QuasiNewton search_;
