@@ -71,29 +71,26 @@ void add_point(const StrainPoint& point, const Stiffness9& stiffness, Mat3 (&blo
 std::vector<StrainPoint> strain_points(const CellMesh& mesh, const Points& rest) {
     if (!mesh.hanging().empty())
         throw std::invalid_argument("strain_points: a mesh with hanging vertices");
-    const double low = 0.5 - 0.5 / std::sqrt(3.0);
     std::vector<StrainPoint> out;
-    for (const CellMesh::Cell& cell : mesh.cells())
-        for (int g = 0; g < 8; ++g) {
-            const double s[3] = {g & 4 ? 1 - low : low, g & 2 ? 1 - low : low,
-                                 g & 1 ? 1 - low : low};
-            StrainPoint point{.count = 8, .node = cell.vertex};
-            Mat3 tangents = Mat3::Zero();
-            std::array<Vec3, 8> slopes;
-            for (std::size_t c = 0; c < 8; ++c) {
-                const double f[3] = {c & 4 ? s[0] : 1 - s[0], c & 2 ? s[1] : 1 - s[1],
-                                     c & 1 ? s[2] : 1 - s[2]};
-                slopes[c] = {(c & 4 ? 1 : -1) * f[1] * f[2], (c & 2 ? 1 : -1) * f[0] * f[2],
-                             (c & 1 ? 1 : -1) * f[0] * f[1]};
-                tangents += rest.row(cell.vertex[c]).transpose() * slopes[c].transpose();
-            }
-            point.volume_m3 = tangents.determinant() / 8;
-            if (!(point.volume_m3 > 0)) throw std::invalid_argument("strain_points: a folded cell");
-            const Mat3 inverse = tangents.inverse().transpose();
-            for (std::size_t c = 0; c < 8; ++c) point.gradient[c] = inverse * slopes[c];
-            point.along = tangents.col(0).normalized();
-            out.push_back(point);
+    for (const CellMesh::Cell& cell : mesh.cells()) {
+        const double s[3] = {0.5, 0.5, 0.5};
+        StrainPoint point{.count = 8, .node = cell.vertex};
+        Mat3 tangents = Mat3::Zero();
+        std::array<Vec3, 8> slopes;
+        for (std::size_t c = 0; c < 8; ++c) {
+            const double f[3] = {c & 4 ? s[0] : 1 - s[0], c & 2 ? s[1] : 1 - s[1],
+                                 c & 1 ? s[2] : 1 - s[2]};
+            slopes[c] = {(c & 4 ? 1 : -1) * f[1] * f[2], (c & 2 ? 1 : -1) * f[0] * f[2],
+                         (c & 1 ? 1 : -1) * f[0] * f[1]};
+            tangents += rest.row(cell.vertex[c]).transpose() * slopes[c].transpose();
         }
+        point.volume_m3 = tangents.determinant();
+        if (!(point.volume_m3 > 0)) throw std::invalid_argument("strain_points: a folded cell");
+        const Mat3 inverse = tangents.inverse().transpose();
+        for (std::size_t c = 0; c < 8; ++c) point.gradient[c] = inverse * slopes[c];
+        point.along = tangents.col(0).normalized();
+        out.push_back(point);
+    }
     return out;
 }
 

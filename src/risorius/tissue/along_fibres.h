@@ -33,7 +33,7 @@ struct StrainPoint {
     Vec3 along = Vec3::UnitX();      ///< a
 };
 
-/// The eight Gauss points of each cell, with fibres along the first axis of the mesh. `rest`: of its nodes, m. Throws
+/// The middle of each cell, with fibres along the first axis of the mesh. `rest`: of its nodes, m. Throws
 /// std::invalid_argument for a mesh with hanging vertices, and for a point without a positive volume.
 std::vector<StrainPoint> strain_points(const CellMesh& mesh, const Points& rest);
 /// One point per tetrahedron. `fibres`: T x 3, unit vectors.
