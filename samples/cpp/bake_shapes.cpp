@@ -37,4 +37,7 @@ int main(int argc, char** argv) try {
 } catch (const Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;
+} catch (const RunError& error) {  // not the input: a full disk, no OpenGL
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
 }

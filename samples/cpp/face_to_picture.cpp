@@ -22,14 +22,13 @@ int main(int argc, char** argv) try {
 
     // Both zygomatici at 70 %
     const track::ChannelTable channels = files.rig.channels();
-    track::Drive rest;
-    rest.excitation = Eigen::VectorXd::Zero(channels.column_count());
-    track::Drive drive = rest;
+    track::Drive drive;
+    drive.excitation = Eigen::VectorXd::Zero(channels.column_count());
     for (const Side side : {Side::kLeft, Side::kRight})
         drive.excitation[channels.column("zygomaticus_major", side)] = 0.7;
 
     // One second in time steps, so that the face has nearly come to rest
-    face.start([&](double) { return rest; });
+    face.start([](double) { return track::Drive{}; });
     const face::FacePose pose = face.pose_at(1.0, [&](double) { return drive; });
     const Vec3 corner = pose.vertices.row(files.rig.landmarks.at("ch_l").vertex).transpose();
     std::printf("left corner of the mouth: %.1f %.1f %.1f mm\n", 1e3 * corner.x(), 1e3 * corner.y(),
@@ -42,4 +41,7 @@ int main(int argc, char** argv) try {
 } catch (const Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;
+} catch (const RunError& error) {  // not the input: a full disk, no OpenGL
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
 }
