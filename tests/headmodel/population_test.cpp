@@ -93,17 +93,25 @@ TEST(Person, WearsHairOfItsSexAndAncestry) {
          {std::pair{-1.0, std::string("south_asian")}, {1.0, std::string("european")}}) {
         std::map<std::string, double> styles;
         double brow = 0;
+        int fringes = 0;
         for (unsigned seed = 1; seed <= kPersons; ++seed) {
             const Identity person =
                 random_person(seed, {.sex = sex, .age = 30, .ancestry = ancestry}, design());
             ++styles[person.hairdo.style];
             brow += person.hairdo.brow_width / kPersons;
+            const IdentityHair& hair = person.hairdo;
+            fringes += hair.fringe > 0;
+            EXPECT_TRUE(hair.fringe == 0 || hair.style == "bob" || hair.style == "short_parted");
+            EXPECT_NEAR(hair.lock_length, 1, 0.4);
+            EXPECT_NEAR(hair.lock_wave, 0.5, 0.5);
+            EXPECT_NEAR(hair.parting, 0, 2);
             if (sex < 0) {
                 EXPECT_EQ(person.beard, 0);
                 EXPECT_EQ(person.hairdo.beard_form, "stubble");
             }
         }
         EXPECT_EQ(styles["bald_fringe"], 0) << "at 30";
+        EXPECT_GT(fringes, 10);
         EXPECT_NEAR(brow, sex < 0 ? 0.77 : 1.19, 0.06);
         const auto column =
             std::find(design().ancestries.begin(), design().ancestries.end(), ancestry) -

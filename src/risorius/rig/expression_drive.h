@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The drive of a named expression: an ARKit shape, an action unit, an expression of the rig's tables, or a single muscle at full
-/// excitation.
+/// The drive of a named expression: an ARKit shape, an action unit, an expression of the rig's tables, or a single muscle, at full
+/// or any intensity.
 #pragma once
 
 #include <optional>

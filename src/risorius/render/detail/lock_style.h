@@ -51,11 +51,14 @@ struct LockStyle {
 /// Returns the style of a name, or null for "shaven". The name must be one of hair_style_names().
 const LockStyle* lock_style(const std::string& name);
 
-/// Returns a style with locks of `length` times its lengths, waves of a share `wave` (0..1) beside its own, and the parting at `parting`
-/// times its place. Only styles with a parting have a fringe.
+/// What a person changes of a style.
 struct LockChange {
-    double length = 1, wave = 0, parting = 1, fringe = 0;
+    double length = 1;   ///< factor of its lengths
+    double wave = 0;     ///< 0..1, waves beside its own; of styles with a parting
+    double parting = 1;  ///< factor of the place of its parting
+    double fringe = 0;   ///< as LockStyle::fringe; of styles with a parting
 };
+/// Returns the style as changed.
 LockStyle varied_style(LockStyle style, const LockChange& change);
 
 /// How a form of the hairline differs from the one that the landmarks give, mm.
