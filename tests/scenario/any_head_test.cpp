@@ -6,6 +6,7 @@
 
 #include "rig/head_variants.h"
 #include "risorius/fitting/fit_rig.h"
+#include "risorius/headmodel/sculpt_head.h"
 #include "risorius/io/read_mesh.h"
 #include "risorius/media/image_file.h"
 #include "risorius/scene/landmark_points.h"
@@ -173,6 +174,17 @@ TEST(AnyHead, AnotherPersonIsFittedFromTwentyLandmarks) {
         ++count;
     }
     EXPECT_LT(1e3 * std::sqrt(squared / count), 5);
+}
+
+TEST(AnyHead, LongUpperLipOverAThinLowerOneKeepsNoFibreOfTheOther) {
+    const Folder folder;
+    headmodel::sculpt_head(
+        {.out = folder / "head",
+         .identity = headmodel::chosen_identity(
+             {.identity = (kRoot / "tests/data/heads/long_upper_lip.json").string()})});
+    const Moves moves(folder / "head/rig.json");
+    EXPECT_TRUE(moves.finite);
+    EXPECT_GT(moves.jaw_mm, 20);  // 8.7 with fibres of the lower lip in the upper one
 }
 
 }  // namespace

@@ -24,13 +24,25 @@ std::vector<Vec3> without_close_points(const std::vector<Vec3>& path, const rig:
     return spaced;
 }
 
+// Returns the lip that all landmarks of the band on lips belong to; none when they belong to both, or when there are none.
+Lip lip_of_band(const rig::MuscleBand& band) {
+    Lip out = Lip::kNone;
+    for (const rig::BandPoint& point : band.points) {
+        const Lip lip = lip_of(point.landmark);
+        if (lip == Lip::kNone) continue;
+        if (out != Lip::kNone && out != lip) return Lip::kNone;
+        out = lip;
+    }
+    return out;
+}
+
 struct Strand {
     std::vector<muscle::FibrePoint> points;
     std::vector<Vec3> places;  ///< of the points at rest, m
 };
 
 // Ends on bone move with it. The other points are embedded in the tissue; points that coincide outside of the tissue become one.
-Strand embed_strand(const std::vector<Vec3>& spaced, const rig::MuscleBand& band,
+Strand embed_strand(const std::vector<Vec3>& spaced, const rig::MuscleBand& band, Lip lip,
                     const TissueLocator& locator, const TissueMesh& mesh, const rig::Head& head) {
     Strand strand;
     auto& [points, places] = strand;
@@ -45,7 +57,7 @@ Strand embed_strand(const std::vector<Vec3>& spaced, const rig::MuscleBand& band
             point.body = body == rig::Body::kMandible ? kMandibleBody : kSkullBody;
             point.body_rest = place;
         } else {
-            point = locator.embed(place);
+            point = locator.embed(place, lip);
             place.setZero();
             for (int k = 0; k < 4; ++k)
                 place += point.weights[k] * mesh.nodes.row(point.nodes[k]).transpose();
@@ -66,18 +78,19 @@ Strand embed_strand(const std::vector<Vec3>& spaced, const rig::MuscleBand& band
 MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& rig,
                               const Shell& shell, const TissueMesh& mesh) {
     constexpr double kFibreSpacing_mm = 4.0, kPointSpacing_mm = 5.0;
-    const TissueLocator locator(shell, mesh);
+    const TissueLocator locator(head, shell, mesh);
     const track::ChannelTable channels = rig.channels();
     MusclePlacement out;
 
     // The given width is that of the whole muscle, whose bands lie side by side
     const auto place_band = [&](const rig::MuscleBand& band, Side side) {
         const int column = channels.column(band.muscle, side);
+        const Lip lip = lip_of_band(band);
         // The centre line, and the skin above it
         std::vector<Vec3> centre, outward;
         for (const rig::BandPoint& point : band.points) {
             const Vec3 over = head.landmark(point.landmark) + head.size * point.offset;
-            const auto tissue = locator.column_at(over);
+            const auto tissue = locator.column_at(over, lip);
             outward.push_back(tissue.outward);
             centre.push_back(point.depth < 0 ? over
                                              : Vec3(tissue.skin - point.depth * tissue.thickness *
@@ -111,14 +124,14 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
                 Vec3 p = centre[i] + across * sideways;
                 if (band.points[i].depth >= 0) {
                     const auto tissue =
-                        locator.column_at(p + (band.points[i].depth * 2e-3) * outward[i]);
+                        locator.column_at(p + (band.points[i].depth * 2e-3) * outward[i], lip);
                     p = tissue.skin - band.points[i].depth * tissue.thickness * tissue.outward;
                 }
                 through.push_back(p);
             }
             const std::vector<Vec3> path = geom::sample_curve(through, head.mm(kPointSpacing_mm));
             const std::vector<Vec3> spaced = without_close_points(path, head);
-            const auto [points, places] = embed_strand(spaced, band, locator, mesh, head);
+            const auto [points, places] = embed_strand(spaced, band, lip, locator, mesh, head);
             if (points.size() < 2) continue;
             muscle::Fibre fibre;
             fibre.first_point = static_cast<int>(out.points.size());

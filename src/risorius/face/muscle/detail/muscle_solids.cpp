@@ -28,7 +28,7 @@ MuscleSolids::MuscleSolids(const rig::Head& head, const rig::RigDescription& rig
     rest_.resize(0, 3);
     mass_.resize(0);
     if (rig.solids.empty()) return;
-    const TissueLocator locator(shell, mesh);
+    const TissueLocator locator(head, shell, mesh);
     placement_ = place_solids(head, rig, jaw, locator);
     rest_.resize(static_cast<long>(placement_.nodes.size()), 3);
     for (long i = 0; i < rest_.rows(); ++i)
