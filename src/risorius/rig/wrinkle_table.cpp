@@ -86,9 +86,9 @@ WrinkleFactor read_factor(const JsonCursor& json, const Ids& known) {
 }
 
 WrinklePattern read_pattern(const JsonCursor& json, const Ids& known) {
-    json.allow_keys({"name", "each_side", "aged", "slot", "wavelength_mm", "fraction", "permanence",
-                     "jitter", "jitter_spacing", "anchor", "anchor_phase", "along_fibres", "fibres",
-                     "crease", "front_only", "min_outward_mm", "window"});
+    json.allow_keys({"name", "each_side", "aged", "slot", "wavelength_mm", "fraction", "onset",
+                     "permanence", "jitter", "jitter_spacing", "anchor", "anchor_phase",
+                     "along_fibres", "fibres", "crease", "front_only", "min_outward_mm", "window"});
     WrinklePattern out;
     out.name = json.at("name").string();
     read_optional(json, "each_side", out.each_side);
@@ -96,6 +96,7 @@ WrinklePattern read_pattern(const JsonCursor& json, const Ids& known) {
     out.slot = json.at("slot").integer(0, 2);
     out.wavelength_mm = json.at("wavelength_mm").number({0.1, 100});
     out.fraction = json.at("fraction").number({0, 1});
+    read_optional(json, "onset", {0, 0.5}, out.onset);
     read_optional(json, "permanence", {0, 1}, out.permanence);
     read_optional(json, "jitter", {0, 10}, out.jitter);
     read_optional(json, "jitter_spacing", {0.01, 100}, out.jitter_spacing);

@@ -63,6 +63,9 @@ struct CreasePoint {
     Vec3 offset_mm = Vec3::Zero();  ///< x outwards
 };
 
+/// Shortening at which lines begin unless the table says otherwise.
+inline constexpr double kWrinkleOnset = 0.05;
+
 /// One set of lines.
 struct WrinklePattern {
     std::string name;
@@ -74,6 +77,8 @@ struct WrinklePattern {
     /// Depth of the lines, 0..1: as a fraction of the depth at which the length of the skin would not change. The rest of the
     /// compression thickens the skin
     double fraction = 1;
+    /// Shortening of the skin across the lines at which they begin, 0..0.5; a crease begins at 0.025 less
+    double onset = kWrinkleOnset;
     double permanence = 0;      ///< fraction of the depth that remains in old skin at rest, 0..1
     double jitter = 0.16;       ///< random displacement of the lines, wavelengths
     double jitter_spacing = 3;  ///< spacing of the random values, wavelengths

@@ -334,6 +334,7 @@ void lay(const rig::Head& head, const Triangles& skin, const Pattern& pattern,
         lines.window(v, pattern.table->slot) = window[v];
         lines.wavelength(v, pattern.table->slot) = pattern.wavelength_m;
         lines.at_rest(v, pattern.table->slot) = pattern.table->permanence * age;
+        lines.later(v, pattern.table->slot) = pattern.table->onset - rig::kWrinkleOnset;
         owner[v][pattern.table->slot] = index;
     }
     if (pattern.crease.empty()) return;
@@ -402,11 +403,9 @@ void claim_phases(const Triangles& skin, WrinkleLines& lines) {
 WrinkleLines lay_wrinkle_lines(const rig::Head& head, const rig::RigDescription& rig,
                                const Triangles& skin) {
     const long count = head.vertices.rows();
-    WrinkleLines lines{Points::Zero(count, kWrinkleSlots),
-                       Points::Zero(count, kWrinkleSlots),
-                       Points::Zero(count, kWrinkleSlots),
-                       {},
-                       Points::Zero(count, kWrinkleSlots)};
+    WrinkleLines lines{Points::Zero(count, kWrinkleSlots), Points::Zero(count, kWrinkleSlots),
+                       Points::Zero(count, kWrinkleSlots), {},
+                       Points::Zero(count, kWrinkleSlots), Points::Zero(count, kWrinkleSlots)};
     Owners owner(static_cast<std::size_t>(count), {-1, -1, -1});
     int index = 0;
     for (const Pattern& pattern : patterns_of(head, rig.atlas, rig.appearance.age)) {

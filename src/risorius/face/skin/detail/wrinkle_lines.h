@@ -43,6 +43,8 @@ struct WrinkleLines {
     std::vector<Crease> creases = {};
     /// V x 3 or no rows, 0..1: permanence, how deep the lines of old skin remain at rest.
     Points at_rest = {};
+    /// V x 3 or no rows: how much more the skin must shorten before it folds than skin does elsewhere, ratio.
+    Points later = {};
     /// V x 3 or no rows: whose a phase is. A phase that others change beside a line would bend it.
     enum Claim : signed char { kFree, kBesideLine, kOfLine };
     Eigen::Array<signed char, Eigen::Dynamic, kWrinkleSlots> claim = {};

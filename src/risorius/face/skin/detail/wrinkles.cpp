@@ -118,11 +118,13 @@ Wrinkles::Wrinkles(const WrinkleLines& lines, const Triangles& skin, const Point
     window_.resize(count, 3);
     wavelength_.resize(count, 3);
     stays_.setZero(count, 3);
+    later_.setZero(count, 3);
     for (long i = 0; i < count; ++i) {
         phase_.row(i) = lines.phase.row(vertex_[i]);
         window_.row(i) = lines.window.row(vertex_[i]);
         wavelength_.row(i) = lines.wavelength.row(vertex_[i]);
         if (lines.at_rest.size() > 0) stays_.row(i) = kStays * lines.at_rest.row(vertex_[i]);
+        if (lines.later.size() > 0) later_.row(i) = lines.later.row(vertex_[i]);
     }
 
     // Strain gauges across the lines, and the operator of the local mean
@@ -280,7 +282,7 @@ void Wrinkles::fold(Points& vertices, Points& depth) const {
         double out = 0;
         for (int slot = 0; slot < kWrinkleSlots; ++slot) {
             if (window_(row, slot) == 0) continue;
-            const double c = compression_(row, slot), stays = stays_(row, slot);
+            const double c = compression_(row, slot) - later_(row, slot), stays = stays_(row, slot);
             const double in_place = depth_m(row, slot, c);
             depth(vertex_[i], slot) += (1 - resolved_(row, slot)) * in_place;
             if (stays > 0) depth(vertex_[i], slot) += depth_m(row, slot, c + stays) - in_place;

@@ -10,7 +10,7 @@
 ///   d_k = 1 + 0.4 sin(2.4 k)   variation between lines; k = round(f) is the number of the valley, so d_k changes on the ridges
 ///
 /// Skin hardly shortens. Beyond an onset, compression makes it fold, and the length along the folded profile is preserved:
-///   integral of sqrt(1 + h'^2) = 1 + e / (1 - c),    e = c - onset, with a smooth start at 0
+///   integral of sqrt(1 + h'^2) = 1 + e / (1 - c),    e = c - onset, with a smooth start at 0; each pattern has its onset
 ///
 /// c is averaged over about 3 mm (by a screened Poisson equation on the surface), so that it does not depend on the mesh. A crease folds
 /// as a whole: its c is averaged over 9 mm along it and across the strip beside it. Its onset is lower, since the line exists at rest.
@@ -86,7 +86,7 @@ class Wrinkles {
     std::vector<Strip> strips_;
     Points inverse_area_;  // per vertex and slot
     Eigen::VectorXd area_;
-    Points phase_, window_, wavelength_, stays_, resolved_;
+    Points phase_, window_, wavelength_, stays_, later_, resolved_;
     Eigen::Matrix<char, Eigen::Dynamic, kWrinkleSlots> creased_;
     bool any_resolved_ = false;
     Triangles triangles_;  // over vertex_
