@@ -188,6 +188,11 @@ void add_shapes(CLI::App& app) {
                      "the nodes")
         ->capture_default_str();
     command
+        ->add_option("--hair", options.hair,
+                     "Hair on the scalp in shapes.glb and shapes.usda. \"own\": the hair of the "
+                     "rig, as cards with a picture; \"none\": no hair")
+        ->capture_default_str();
+    command
         ->add_option("--levels", options.levels,
                      "Number of coarser levels of detail to write, 0 to 4: shapes_lod1.glb and so "
                      "on, each with half the triangles of the one before, and the same shapes")

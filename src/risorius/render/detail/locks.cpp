@@ -7,6 +7,8 @@
 
 #include "risorius/core/rotations.h"
 #include "risorius/render/detail/lock_guides.h"
+#include "risorius/render/detail/skin_box.h"
+#include "risorius/render/detail/skin_paint.h"
 
 namespace risorius::render {
 namespace {
@@ -242,6 +244,30 @@ Hair plan_hair(const Scene& scene, const SkinPlan& plan, const Vec3& paint_centr
     add_casters(hair);
     add_cap(ground, style, scene, hair);
     return hair;
+}
+
+Hair plan_hair(const Scene& scene) {
+    if (scene.appearance.hair_style == "shaven") return {};
+    const SkinBox box = box_of_skin(scene);
+    const Vec3 centre = paint_centre(scene, box.min, box.max);
+    return plan_hair(scene, plan_skin(scene, centre), centre);
+}
+
+Triangles triangles_from_outside(const Hair& hair, const Points& rest) {
+    std::vector<Vec3> roots;
+    for (const SkinPlace& root : hair.roots) roots.push_back(root.on(rest));
+    const auto place = [&](const HairVertex& v) -> Vec3 { return roots[v.root] + v.offset; };
+    Triangles out(static_cast<Eigen::Index>(hair.triangles.size()) / 3, 3);
+    for (Eigen::Index f = 0; f < out.rows(); ++f) {
+        const unsigned* corner = hair.triangles.data() + 3 * f;
+        const HairVertex &a = hair.vertices[corner[0]], &b = hair.vertices[corner[1]],
+                         &c = hair.vertices[corner[2]];
+        const bool outside = (place(b) - place(a)).cross(place(c) - place(a)).dot(a.out + b.out +
+                                                                                 c.out) >= 0;
+        out.row(f) << static_cast<int>(corner[0]), static_cast<int>(corner[outside ? 1 : 2]),
+            static_cast<int>(corner[outside ? 2 : 1]);
+    }
+    return out;
 }
 
 PosedHair pose_hair(const Hair& hair, const Points& rest, const Points& positions) {
