@@ -64,9 +64,8 @@ std::unique_ptr<io::MorphModel> MorphHair::bald_;
 TEST_F(MorphHair, EveryStyleIsANodeBelowTheHeadWithItsCards) {
     // Triangles of the cards and of the cap on the adult
     const std::map<std::string, std::pair<long, long>> kTriangles{
-        {"crop", {0, 0}},        {"short_parted", {0, 0}}, {"curly_short", {0, 0}},
-        {"afro", {0, 0}},        {"bob", {0, 0}},          {"long_tied", {0, 0}},
-        {"bald_fringe", {0, 0}},
+        {"crop", {0, 0}}, {"short_parted", {0, 0}}, {"curly_short", {0, 0}}, {"afro", {0, 0}},
+        {"bob", {0, 0}},  {"long_tied", {0, 0}},    {"bald_fringe", {0, 0}},
     };
     for (const std::string& style : render::hair_style_names()) {
         const io::MorphModel model = with_hair(style);
@@ -113,8 +112,8 @@ TEST_F(MorphHair, TheFileHasAMaskedMaterialNormalsAndTextureCoordinatesAndIsTheS
             EXPECT_EQ(material.value("doubleSided", false), material["name"] == "Hair");
             EXPECT_TRUE(material["pbrMetallicRoughness"].contains("baseColorTexture"));
         }
-        EXPECT_EQ(modes, (std::map<std::string, std::string>{{"Hair", "MASK"},
-                                                             {"HairCap", "OPAQUE"}}));
+        EXPECT_EQ(modes,
+                  (std::map<std::string, std::string>{{"Hair", "MASK"}, {"HairCap", "OPAQUE"}}));
         const TemporaryFolder folder;
         std::ofstream(folder.path() / "hair.glb", std::ios::binary) << bytes;
         std::ofstream(folder.path() / "bald.glb", std::ios::binary) << without;
@@ -149,7 +148,8 @@ TEST_F(MorphHair, CardsMoveWithTheSkinBelowThemAndRestWhereItRests) {
         if (up.vertex[i] < first) continue;
         ++cards;
         // A card on the rim of what moves has a part of it.
-        EXPECT_LE((up.delta.row(static_cast<long>(i)) - Eigen::RowVector3d(0, 0.003, 0)).norm(), 0.003);
+        EXPECT_LE((up.delta.row(static_cast<long>(i)) - Eigen::RowVector3d(0, 0.003, 0)).norm(),
+                  0.003);
     }
     EXPECT_GT(cards, (hairy.vertices.rows() - first) / 2);
     EXPECT_EQ(hairy.targets[1].vertex, model.targets[1].vertex);

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
@@ -13,7 +12,6 @@
 
 #include "paths.h"
 #include "risorius/core/error.h"
-#include "risorius/io/gltf_shapes.h"
 #include "shell.h"
 #include "temporary_folder.h"
 
@@ -445,68 +443,6 @@ TEST(MorphModel, ThreeJsLoadsItsNamesNumbersAndAnimation) {
             EXPECT_EQ(track[1], 2);
             EXPECT_EQ(track[2], 6);
         }
-    }
-}
-
-/// The quads with a triangle that is worn on them and moves with "push".
-MorphModel quads_with_something_worn() {
-    MorphModel model = two_quads();
-    model.nodes = {{.name = "quads"}, {.name = "worn"}};
-    model.vertices.conservativeResize(10, 3);
-    model.vertices.bottomRows(3) << 0, 0, 1, 1, 0, 1, 0, 1, 1;
-    model.worn_normals.resize(3, 3);
-    model.worn_normals << 0.6, 0, 0.8, 0, 0.6, 0.8, 0, 0, 1;
-    model.parts[1].tint = Points::Ones(10, 3);
-    MorphPart worn;
-    worn.name = "card";
-    worn.node = 1;
-    worn.triangles.resize(1, 3);
-    worn.triangles << 7, 8, 9;
-    worn.texcoords.resize(3, 2);
-    worn.texcoords << 0, 0, 1, 0, 1, 1;
-    worn.picture = 0;
-    worn.picture_cuts = worn.see_both_sides = true;
-    worn.cut_at = 0.25;
-    model.parts.push_back(worn);
-    model.pictures = {{"strands", "image/png", "bytes of a picture"}};
-    Points push(2, 3);
-    push << 0.125, 0, 0, 0.125, 0, 0;
-    model.targets[2] = {"push", {1, 8}, push};
-    return model;
-}
-
-TEST(MorphModel, WhatIsWornHasAMeshOfItsOwnAndIsNoPartOfTheHead) {
-    const TemporaryFolder folder;
-    const std::filesystem::path file = folder.path() / "worn.glb";
-    for (const bool whole_numbers : {false, true}) {
-        MorphModel model = quads_with_something_worn();
-        model.whole_numbers = whole_numbers;
-        const std::string bytes = glb_bytes(model);
-        EXPECT_EQ(bytes, glb_bytes(model));
-        const auto [json, binary] = chunks(bytes);
-        const Json mesh = json["meshes"][1], primitive = mesh["primitives"][0];
-        EXPECT_EQ(mesh["extras"]["targetNames"], Json({"push"}));
-        EXPECT_EQ(primitive["attributes"].contains("_VERTEX"), false);
-        EXPECT_EQ(json["meshes"][0]["primitives"][0]["attributes"].contains("_VERTEX"), true);
-        EXPECT_EQ(primitive["targets"][0].contains("NORMAL"), false);
-        const Json material = json["materials"][primitive["material"].get<std::size_t>()];
-        EXPECT_EQ(material["alphaMode"], "MASK");
-        EXPECT_EQ(material["alphaCutoff"], 0.25);
-        if (!whole_numbers) {
-            const Json normals = json["accessors"][primitive["attributes"]["NORMAL"].get<std::size_t>()],
-                       view = json["bufferViews"][normals["bufferView"].get<std::size_t>()];
-            float first[3];
-            std::memcpy(first, binary.data() + view.value("byteOffset", std::size_t{0}), sizeof first);
-            EXPECT_FLOAT_EQ(first[0], 0.6F);
-        }
-        std::ofstream(file, std::ios::binary) << bytes;
-        const MorphModel read = read_glb(file);
-        EXPECT_EQ(read.parts.size(), 2u);
-        EXPECT_EQ(read.vertices.rows(), 6);  // the last one of the mesh is unused
-        EXPECT_EQ(read.targets[2].vertex, std::vector<int>{1});
-        const GltfShapes shapes = read_gltf_shapes(file);
-        EXPECT_EQ(shapes.vertex.size(), static_cast<std::size_t>(shapes.positions.rows()));
-        EXPECT_EQ(*std::max_element(shapes.vertex.begin(), shapes.vertex.end()), 5);
     }
 }
 

@@ -106,10 +106,12 @@ TEST(HairCards, RowsThatAreLeftOutLieNearTheCard) {
     double most = 0;
     for (std::size_t v = 0; v < 2 * locks.pieces[0].rows; ++v)
         most = std::max(
-            most, from_cards(hair, places.row(static_cast<long>(locks.pieces[0].first_vertex + v))
-                                       .transpose()));
+            most,
+            from_cards(
+                hair, places.row(static_cast<long>(locks.pieces[0].first_vertex + v)).transpose()));
     EXPECT_LT(most, 0.00031);
-    EXPECT_LT(hair.vertices.rows(), static_cast<long>(0.7 * static_cast<double>(locks.vertices.size())))
+    EXPECT_LT(hair.vertices.rows(),
+              static_cast<long>(0.7 * static_cast<double>(locks.vertices.size())))
         << "as half of the rows are straight";
 }
 
@@ -144,8 +146,8 @@ TEST(HairCards, ThePictureIsWholeAtTheRootsAndSingleStrandsAtTheEnds) {
     // Between the rims all of the body is hair, whatever part of it a narrow card shows.
     const int cell = picture.width_px / static_cast<int>(kCardCells);
     for (std::size_t k = 0; k < kCardCells; ++k)
-        for (int x = static_cast<int>(kCardRim * cell) + 1; x < static_cast<int>((1 - kCardRim) * cell);
-             ++x)
+        for (int x = static_cast<int>(kCardRim * cell) + 1;
+             x < static_cast<int>((1 - kCardRim) * cell); ++x)
             ASSERT_EQ(picture.pixel(static_cast<int>(k) * cell + x, body - 2)[3], 255);
     const auto mean = [](const Image& of) {
         double sum = 0;

@@ -55,8 +55,9 @@ struct MorphPart {
     bool see_both_sides = false;
     int picture = -1;           ///< index in MorphModel::pictures: multiplies the colour; -1: none
     bool picture_cuts = false;  ///< the alpha of the picture is the opacity
-    double cut_at = 0;          ///< of picture_cuts: what has less alpha is left out, all else is opaque; 0: it blends
-    bool normals_turn = true;   ///< false: targets have no normals, since nobody sees them
+    double cut_at =
+        0;  ///< of picture_cuts: what has less alpha is left out, all else is opaque; 0: it blends
+    bool normals_turn = true;  ///< false: targets have no normals, since nobody sees them
 };
 
 /// A node of the hierarchy. It is a joint when the skin names it.

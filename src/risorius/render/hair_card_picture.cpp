@@ -23,8 +23,7 @@ void add_card_strand(Image& image, int first_px, int cell_px, double at, double 
     for (int y = 0; y < image.height_px; ++y) {
         const double t = (y + 0.5) / image.height_px;
         if (t > end) break;
-        const double x = at + bend_px * t * t,
-                     half = half_px * std::min(1.0, 0.25 + 4 * (end - t));
+        const double x = at + bend_px * t * t, half = half_px * std::min(1.0, 0.25 + 4 * (end - t));
         for (int dx = static_cast<int>(x - half) - 1; dx <= static_cast<int>(x + half) + 1; ++dx) {
             if (dx < 0 || dx >= cell_px) continue;
             const double covered = std::clamp(half + 0.5 - std::abs(dx + 0.5 - x), 0.0, 1.0);
@@ -48,8 +47,8 @@ void cut_card_cells(unsigned seed, Image& image) {
                          half = 0.9 + 1.1 * random.next(), bend = 6 * (random.next() - 0.5);
             // Strands at the rims end anywhere, the others at the end of the card.
             const double aside = std::abs(2 * at / kCell_px - 1), chance = random.next();
-            const double end = aside > 1 - kCardRim ? 0.45 + 0.5 * chance
-                                                    : kCardBody + (1 - kCardBody) * chance;
+            const double end =
+                aside > 1 - kCardRim ? 0.45 + 0.5 * chance : kCardBody + (1 - kCardBody) * chance;
             add_card_strand(image, first, kCell_px, at, half, bend, end);
         }
     }
@@ -70,9 +69,8 @@ Image hair_card_picture(const Appearance& appearance) {
     Image image(kCardPictureWidth_px, kCardPictureHeight_px);
     for (int y = 0; y < image.height_px; ++y)
         for (int x = 0; x < image.width_px; ++x) {
-            const std::uint8_t* strand =
-                &strands[2 * (static_cast<std::size_t>(y) * kStrandSide +
-                              static_cast<std::size_t>(x % kStrandSide))];
+            const std::uint8_t* strand = &strands[2 * (static_cast<std::size_t>(y) * kStrandSide +
+                                                       static_cast<std::size_t>(x % kStrandSide))];
             // As shader_lock.cpp has it, under light from all around
             const double hair = level(strand[0]), bright = hair + hair * hair;
             const Vec3 root = tone + level(strand[1]) * (white - tone);

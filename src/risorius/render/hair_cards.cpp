@@ -70,7 +70,9 @@ class CardMaker {
 
     /// The triangle seen from where its normals point.
     void add_triangle(int a, int b, int c, std::vector<int>& triangles) const {
-        const auto of = [&](int i) -> const CardVertex& { return at_[static_cast<std::size_t>(i)]; };
+        const auto of = [&](int i) -> const CardVertex& {
+            return at_[static_cast<std::size_t>(i)];
+        };
         const Vec3 normal = (of(b).at - of(a).at).cross(of(c).at - of(a).at);
         if (normal.norm() == 0) return;
         const bool outwards = normal.dot(of(a).normal + of(b).normal + of(c).normal) > 0;
@@ -90,14 +92,12 @@ class CardMaker {
     /// The rows that a card keeps: a lock that is nearly straight needs few.
     std::vector<std::size_t> rows_of(const HairPiece& piece) const {
         const auto off = [&](std::size_t from, std::size_t to, std::size_t row) {
-            const double share =
-                static_cast<double>(row - from) / static_cast<double>(to - from);
+            const double share = static_cast<double>(row - from) / static_cast<double>(to - from);
             double most = 0;
             for (const std::size_t column : {std::size_t{0}, piece.columns - 1}) {
                 const Vec3 a = place(at(piece, from, column)), b = place(at(piece, to, column));
                 const Vec3 way = b - a, p = place(at(piece, row, column)) - a;
-                const double along =
-                    way.squaredNorm() > 0 ? p.dot(way) / way.squaredNorm() : share;
+                const double along = way.squaredNorm() > 0 ? p.dot(way) / way.squaredNorm() : share;
                 most = std::max(most, (p - std::clamp(along, 0.0, 1.0) * way).norm());
             }
             return most;
@@ -179,10 +179,9 @@ class CardMaker {
         double most = 0;
         const std::size_t end = piece.first_vertex + piece.vertices;
         for (std::size_t v = piece.first_vertex + piece.columns * piece.rows; v + 2 < end; v += 3)
-            most = std::max(
-                most, (hair_.vertices[v + 2].offset -
-                       0.5 * (hair_.vertices[v].offset + hair_.vertices[v + 1].offset))
-                          .norm());
+            most = std::max(most, (hair_.vertices[v + 2].offset -
+                                   0.5 * (hair_.vertices[v].offset + hair_.vertices[v + 1].offset))
+                                      .norm());
         return most;
     }
 
@@ -190,8 +189,8 @@ class CardMaker {
         const auto first = static_cast<int>(at_.size());
         for (std::size_t i = 0; i < piece.vertices; ++i) {
             const HairVertex& v = hair_.vertices[piece.first_vertex + i];
-            at_.push_back(vertex(v, {kStrandTexture_m / kCardPicture_m * v.strand.x(),
-                                     -v.strand.y()}));
+            at_.push_back(
+                vertex(v, {kStrandTexture_m / kCardPicture_m * v.strand.x(), -v.strand.y()}));
         }
         const auto shift = first - static_cast<int>(piece.first_vertex);
         for (std::size_t i = 0; i < piece.indices; i += 3) {

@@ -89,7 +89,7 @@ class SurfacePasses {
 
     int width_, height_;
     Eigen::Matrix4d clip_from_world_;
-    Triangles triangles_;     ///< of the scene, and from first_lock_ on of the locks
+    Triangles triangles_;  ///< of the scene, and from first_lock_ on of the locks
     int first_lock_ = 0;
     std::shared_ptr<const Hair> locks_;
     std::vector<Part> part_;  ///< per triangle; kScleraLeft or kScleraRight for the whole eye

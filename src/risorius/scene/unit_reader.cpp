@@ -135,19 +135,19 @@ double UnitReader::uneven_mm(const UnitReading& reading, const Points& from) con
 UnitReader::Pose UnitReader::pose(const track::Expansion& sum) {
     const track::Drive drive = rig::clamped_drive(sum, channels_);
     face_.start([&](double) { return rest_; });
-    const face::StepStats found =
-        face_.solve_equilibrium(drive.excitation, drive,
-                                {.iterations = face::kRestIterations,
-                                 .tolerance_m = tolerance_m_,
-                                 .planes_m = tolerance_m_});
+    const face::StepStats found = face_.solve_equilibrium(drive.excitation, drive,
+                                                          {.iterations = face::kRestIterations,
+                                                           .tolerance_m = tolerance_m_,
+                                                           .planes_m = tolerance_m_});
     const face::FacePose shown = face_.pose();
     const face::Diagnostics tissue = face_.diagnostics();
-    return {shown, found.converged,
-            {tissue.inverted_tets(),
-             volume_m3_ > 0 ? tissue.tissue_volume_m3() / volume_m3_ - 1 : 0,
-             1e3 * found.lip_depth_m,
-             1e3 * face::depth_in_eyes_m(face_.head(), shown.eye_rotation, shown.vertices),
-             1e3 * found.bone_depth_m}};
+    return {
+        shown,
+        found.converged,
+        {tissue.inverted_tets(), volume_m3_ > 0 ? tissue.tissue_volume_m3() / volume_m3_ - 1 : 0,
+         1e3 * found.lip_depth_m,
+         1e3 * face::depth_in_eyes_m(face_.head(), shown.eye_rotation, shown.vertices),
+         1e3 * found.bone_depth_m}};
 }
 
 std::vector<LandmarkReading> UnitReader::targets(const track::ActionUnit& unit) const {

@@ -23,8 +23,7 @@ namespace risorius::blendshapes {
 io::MorphModel morph_model(const scene::RigFiles& files, const face::Face& face,
                            const MadeShapes& shapes, const std::string& set,
                            const blendshapes::BlendShapeRig& linear,
-                           const ShapeAnimation* animation, int texture_px, EyesBy eyes,
-                           bool hair);
+                           const ShapeAnimation* animation, int texture_px, EyesBy eyes, bool hair);
 
 /// Writes every vertex in every frame of the animation, in mesh units, computed with the blend shape rig. `head_turns`: with the
 /// motion of head and eyes, as in a video, instead of by shapes alone. Of `formats`, "cache" is

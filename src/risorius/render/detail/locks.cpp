@@ -262,8 +262,8 @@ Triangles triangles_from_outside(const Hair& hair, const Points& rest) {
         const unsigned* corner = hair.triangles.data() + 3 * f;
         const HairVertex &a = hair.vertices[corner[0]], &b = hair.vertices[corner[1]],
                          &c = hair.vertices[corner[2]];
-        const bool outside = (place(b) - place(a)).cross(place(c) - place(a)).dot(a.out + b.out +
-                                                                                 c.out) >= 0;
+        const bool outside =
+            (place(b) - place(a)).cross(place(c) - place(a)).dot(a.out + b.out + c.out) >= 0;
         out.row(f) << static_cast<int>(corner[0]), static_cast<int>(corner[outside ? 1 : 2]),
             static_cast<int>(corner[outside ? 2 : 1]);
     }
