@@ -15,6 +15,8 @@
 namespace risorius::render {
 namespace {
 
+/// What hair of any colour mirrors of the light around it, as a share of white: black hair would be a hole without it.
+constexpr double kSheen = 0.010;
 constexpr int kCardPictureWidth_px = 2 * kStrandSide, kCardPictureHeight_px = kStrandSide;
 
 /// Draws a strand from the root to `end` (0..1 of the height) into the alpha of a cell. `at`: its middle, px from the left.
@@ -75,8 +77,9 @@ Image hair_card_picture(const Appearance& appearance) {
             const double hair = level(strand[0]), bright = hair + hair * hair;
             const Vec3 root = tone + level(strand[1]) * (white - tone);
             for (int k = 0; k < 3; ++k)
-                image.pixel(x, y)[k] = srgb_byte(
-                    std::min(kMostHairTone * root[k] * root[k] * (0.25 + 1.1 * bright), 1.0));
+                image.pixel(x, y)[k] = srgb_byte(std::min(
+                    kMostHairTone * (root[k] * root[k] * (0.25 + 1.1 * bright) + kSheen * bright),
+                    1.0));
         }
     cut_card_cells(appearance.seed, image);
     return image;

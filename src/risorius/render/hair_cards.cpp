@@ -17,6 +17,12 @@ constexpr std::size_t kMostLeftOut = 3;
 /// Wider cards have the rims of the picture; strips of fewer hairs are cut from its inside.
 constexpr double kWideCard_m = 0.006;
 
+/// Folds a number into 0..1, there and back. Pictures are not repeated: the ends of strands would show the roots above them.
+double folded(double x) {
+    const double along = x - 2 * std::floor(0.5 * x);
+    return along <= 1 ? along : 2 - along;
+}
+
 class CardMaker {
   public:
     CardMaker(const Scene& scene, const Hair& hair) : hair_(hair) {
@@ -189,8 +195,8 @@ class CardMaker {
         const auto first = static_cast<int>(at_.size());
         for (std::size_t i = 0; i < piece.vertices; ++i) {
             const HairVertex& v = hair_.vertices[piece.first_vertex + i];
-            at_.push_back(
-                vertex(v, {kStrandTexture_m / kCardPicture_m * v.strand.x(), -v.strand.y()}));
+            at_.push_back(vertex(v, {folded(kStrandTexture_m / kCardPicture_m * v.strand.x()),
+                                     1 - folded(v.strand.y())}));
         }
         const auto shift = first - static_cast<int>(piece.first_vertex);
         for (std::size_t i = 0; i < piece.indices; i += 3) {

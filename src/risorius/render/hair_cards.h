@@ -15,7 +15,7 @@ namespace risorius::render {
 struct HairCards {
     Points vertices;            ///< C x 3, m, head frame, at rest
     Points normals;             ///< C x 3, of unit length: away from the head
-    TexCoords texcoords;        ///< C x 2, (0, 0) is the lower left corner; the picture repeats
+    TexCoords texcoords;        ///< C x 2, in 0..1, (0, 0) is the lower left corner
     std::vector<double> shade;  ///< C, 0..1, linear: factor of the picture, dark at the roots
     Triangles cards, cap;       ///< counter-clockwise from outside
     /// C x 3: the triangle of the scene's skin that a vertex follows, and the share of its corners

@@ -21,15 +21,14 @@ double srgb_of_linear(double value) {
 }
 
 io::MorphPart part_of_hair(const char* name, const Triangles& triangles, int first,
-                           const render::HairCards& hair) {
-    constexpr double kRoughness = 0.5;
+                           double roughness, const render::HairCards& hair) {
     io::MorphPart part;
     part.name = name;
     part.triangles = triangles.array() + first;
     part.texcoords.resize(triangles.size(), 2);
     for (long c = 0; c < triangles.size(); ++c)
         part.texcoords.row(c) = hair.texcoords.row(triangles(c / 3, c % 3));
-    part.roughness = kRoughness;
+    part.roughness = roughness;
     part.normals_turn = false;
     return part;
 }
@@ -80,8 +79,9 @@ void add_hair(const scene::RigFiles& files, const rig::Head& head, io::MorphMode
     const char* const name = "hair";
     model.pictures.push_back(
         {name, "image/png", media::png_bytes(render::hair_card_picture(scene.appearance), name)});
-    io::MorphPart cards = part_of_hair("Hair", hair.cards, first, hair),
-                  cap = part_of_hair("HairCap", hair.cap, first, hair);
+    // The cap is smooth, and would mirror the lamp like a ball.
+    io::MorphPart cards = part_of_hair("Hair", hair.cards, first, 0.6, hair),
+                  cap = part_of_hair("HairCap", hair.cap, first, 0.9, hair);
     cards.see_both_sides = cards.picture_cuts = true;
     cards.cut_at = render::kHairAlpha;
     for (io::MorphPart* part : {&cards, &cap}) {
