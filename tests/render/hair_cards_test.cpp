@@ -82,36 +82,6 @@ TEST(HairCards, CardsShowOnePictureAndTheirShadeIsAShare) {
     }
 }
 
-/// The least distance of a point from the edges of triangles.
-double from_cards(const HairCards& hair, const Vec3& p) {
-    double least = 1;
-    for (long f = 0; f < hair.cards.rows(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const Vec3 a = corner(hair, hair.cards, f, k),
-                       way = corner(hair, hair.cards, f, (k + 1) % 3) - a;
-            const double t = std::clamp((p - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
-            least = std::min(least, (a + t * way - p).norm());
-        }
-    return least;
-}
-
-TEST(HairCards, RowsThatAreLeftOutLieNearTheCard) {
-    const Scene scene = head_with("bob");
-    const HairCards hair = hair_cards(scene);
-    const Hair locks = plan_hair(scene);
-    const Points places = pose_hair(locks, scene.rest, scene.rest).positions;
-    double most = 0;
-    for (std::size_t v = 0; v < 2 * locks.pieces[0].rows; ++v)
-        most = std::max(
-            most,
-            from_cards(
-                hair, places.row(static_cast<long>(locks.pieces[0].first_vertex + v)).transpose()));
-    EXPECT_LT(most, 0.00031);
-    EXPECT_LT(hair.vertices.rows(),
-              static_cast<long>(0.7 * static_cast<double>(locks.vertices.size())))
-        << "as half of the rows are straight";
-}
-
 TEST(HairCards, TheyMoveWithTheSkinThatTheyGrowOn) {
     const HairCards hair = hair_cards(head_with("crop"));
     const Scene scene = head_with("crop");

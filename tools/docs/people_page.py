@@ -23,13 +23,14 @@ MEASURED = ROOT / "docs" / "validation" / "people" / "measured.json"
 # The units whose gains docs/validation/faces.md tells of three heads
 UNITS = [f"AU{n}" for n in (1, 2, 4, 5, 6, 7, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 20, 22, 23, 24, 25, 26, 27, 28, 43, 45)]
 LEAST, MOST = 0.8, 1.25
+ADULT = "adult"
 # Key, limit, factor to the unit of the page; the limits are those of the certificate of blend shapes
 MEASURES = [("volume_change", 0.02, 100), ("lip_depth_mm", 0.3, 1), ("eye_depth_mm", 0.3, 1)]
 
 
 def people():
-    """The names of the people of model 2, with sex, age and ancestry."""
-    out = {}
+    """The adult, and the people of model 2, with sex, age and ancestry."""
+    out = {ADULT: None}
     for file in sorted((ROOT / "models" / "identities").glob("*.json")):
         person = json.loads(file.read_text(encoding="utf-8"))
         if person.get("model") == 2:
@@ -47,10 +48,11 @@ def told_by(command):
 def measured(name, program, calibrate):
     with tempfile.TemporaryDirectory() as folder:
         head = pathlib.Path(folder) / name
-        options = ["--calibrate"] if calibrate else []
-        told_by([program, "head", "--identity", name, "-o", head, "--json"] + options)
-        rig = head / "rig.json"
-        units = told_by([program, "evaluate", head / "rig.json", "--facs", "--no-steps", "--json"])["units"]
+        rig = ROOT / "rigs" / "adult" / "rig.json"
+        if name != ADULT:
+            told_by([program, "head", "--identity", name, "-o", head, "--json"] + (["--calibrate"] if calibrate else []))
+            rig = head / "rig.json"
+        units = told_by([program, "evaluate", rig, "--facs", "--no-steps", "--json"])["units"]
     worst = {}
     for key, _, _ in MEASURES:
         value, unit = max((abs(unit[key]), unit["unit"]) for unit in units)
@@ -99,10 +101,12 @@ def cell(numbers, key, limit, factor):
 def row(name, person, numbers):
     gains = {unit: gain for unit, gain in numbers["gains"].items() if unit in UNITS}
     least, most = min(gains, key=gains.get), max(gains, key=gains.get)
-    sex = "woman" if person["sex"] < 0 else "man"
+    who = ""
+    if person:
+        sex = "woman" if person["sex"] < 0 else "man"
+        who = f"{sex}, {person['age']:.0f}, {next(iter(person['ancestry'])).replace('_', ' ')}"
     inverted = sum(numbers["inverted"].values())
-    cells = [name, f"{sex}, {person['age']:.0f}, {next(iter(person['ancestry'])).replace('_', ' ')}",
-             f"{len(gains) - len(outside(gains))} of {len(gains)}", f"{gains[least]:.2f} ({least}), {gains[most]:.2f} ({most})",
+    cells = [name, who, f"{len(gains) - len(outside(gains))} of {len(gains)}", f"{gains[least]:.2f} ({least}), {gains[most]:.2f} ({most})",
              f"**{inverted}** ({', '.join(numbers['inverted'])})" if inverted else "0"]
     cells += [cell(numbers, *measure) for measure in MEASURES]
     cells.append(", ".join(numbers["unsettled"]) or "-")
@@ -112,7 +116,8 @@ def row(name, person, numbers):
 def page():
     known, kept = people(), read()
     names = [name for name in known if name in kept]
-    whole = [name for name in names
+    drawn = [name for name in names if name != ADULT]
+    whole = [name for name in drawn
              if not outside(kept[name]["gains"]) and not beyond(kept[name]) and not kept[name]["inverted"]]
     units = max((len(kept[name]["gains"]) for name in names), default=0)
     lines = [
@@ -121,7 +126,7 @@ def page():
         "This page says whether every person of `models/identities` with model 2 can play every action unit. `tools/docs/people_page.py` makes it "
         "from what `tools/docs/people_page.py measure` has found with `risorius head` and `risorius evaluate --facs`.",
         "",
-        f"{len(names)} of {len(known)} people were measured, with {units} action units each, both sides together, at intensity 1. "
+        f"{len(drawn)} of {len(known) - 1} people were measured, with {units} action units each, both sides together, at intensity 1. "
         f"{len(whole)} of them are within all limits of the table. Their muscles have the strengths and gains of the adult.",
         "",
         f"*In range* counts the {len(UNITS)} units of [Faces](faces.md#action-units) whose gain is between {LEAST} and {MOST}: how far landmarks "

@@ -10,10 +10,6 @@
 namespace risorius::render {
 namespace {
 
-/// Rows of a lock are left out where the lock stays as near to its line as this, m, and how many may follow each other.
-constexpr double kCardBend_m = 0.0003;
-constexpr std::size_t kMostLeftOut = 3;
-
 /// Wider cards have the rims of the picture; strips of fewer hairs are cut from its inside.
 constexpr double kWideCard_m = 0.006;
 
@@ -95,35 +91,6 @@ class CardMaker {
         return (place(at(piece, row, piece.columns - 1)) - place(at(piece, row, 0))).norm();
     }
 
-    /// The rows that a card keeps: a lock that is nearly straight needs few.
-    std::vector<std::size_t> rows_of(const HairPiece& piece) const {
-        const auto off = [&](std::size_t from, std::size_t to, std::size_t row) {
-            const double share = static_cast<double>(row - from) / static_cast<double>(to - from);
-            double most = 0;
-            for (const std::size_t column : {std::size_t{0}, piece.columns - 1}) {
-                const Vec3 a = place(at(piece, from, column)), b = place(at(piece, to, column));
-                const Vec3 way = b - a, p = place(at(piece, row, column)) - a;
-                const double along = way.squaredNorm() > 0 ? p.dot(way) / way.squaredNorm() : share;
-                most = std::max(most, (p - std::clamp(along, 0.0, 1.0) * way).norm());
-            }
-            return most;
-        };
-        std::vector<std::size_t> kept{0};
-        for (std::size_t next = 1; next < piece.rows;) {
-            std::size_t to = next;
-            while (to + 1 < piece.rows && to + 1 - kept.back() <= kMostLeftOut + 1) {
-                double most = 0;
-                for (std::size_t row = kept.back() + 1; row <= to; ++row)
-                    most = std::max(most, off(kept.back(), to + 1, row));
-                if (most > kCardBend_m) break;
-                ++to;
-            }
-            kept.push_back(to);
-            next = to + 1;
-        }
-        return kept;
-    }
-
     /// From where to where a card lies across the picture.
     std::pair<double, double> across(double width_m, double chance) {
         const std::size_t number = static_cast<std::size_t>(out_.locks);
@@ -140,14 +107,13 @@ class CardMaker {
     }
 
     void add_card(const HairPiece& piece, std::vector<int>& triangles) {
-        const std::vector<std::size_t> rows = rows_of(piece);
         double widest = 0, whole = 0;
         std::vector<double> passed{0};
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            widest = std::max(widest, width_m(piece, rows[i]));
-            if (i > 0)
+        for (std::size_t row = 0; row < piece.rows; ++row) {
+            widest = std::max(widest, width_m(piece, row));
+            if (row > 0)
                 passed.push_back(passed.back() +
-                                 (middle(piece, rows[i]) - middle(piece, rows[i - 1])).norm());
+                                 (middle(piece, row) - middle(piece, row - 1)).norm());
         }
         whole = std::max(passed.back(), 1e-9);
         const double chance = at(piece, 0, 0).strand.x();
@@ -158,15 +124,15 @@ class CardMaker {
             return left + (right - left) * static_cast<double>(column) /
                               static_cast<double>(piece.columns - 1);
         };
-        for (std::size_t i = 0; i < rows.size(); ++i)
+        for (std::size_t row = 0; row < piece.rows; ++row)
             for (std::size_t column = 0; column < piece.columns; ++column)
-                at_.push_back(vertex(at(piece, rows[i], column),
-                                     {u(column), 1 - kCardBody * passed[i] / whole}));
+                at_.push_back(vertex(at(piece, row, column),
+                                     {u(column), 1 - kCardBody * passed[row] / whole}));
         // Strands of several lengths, in place of the pointed ends of a lock
-        auto last = static_cast<int>(rows.size()) - 1;
+        auto last = static_cast<int>(piece.rows) - 1;
         if (const double ends = ends_m(piece); ends > 0) {
             for (std::size_t column = 0; column < piece.columns; ++column) {
-                HairVertex end = at(piece, rows.back(), column);
+                HairVertex end = at(piece, piece.rows - 1, column);
                 end.offset += ends * end.along;
                 at_.push_back(vertex(end, {u(column), 0}));
             }

@@ -215,7 +215,7 @@ struct OffscreenView::Impl {
         skin_layer->use();
         for (const Batch& batch : buffers->batches())
             if (batch.material == Material::kSkin) buffers->draw(batch);
-        worn->look_up(cells);
+        worn->look_up(cells, *skin_layer);
         buffers->bind();
     }
 

@@ -164,7 +164,7 @@ void LockLayer::touch(const Eigen::Matrix4f& clip_from_world, PictureCells& cell
             const Eigen::Vector3f& at = places[chosen_[i + k]];
             box.add(at.x(), at.y(), at.z());
         }
-        cells.touch(box);
+        cells.touch_hair(box);
         boxes_.push_back(box);
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/render/detail/worn_layer.h"
 
+#include "risorius/render/detail/shaders.h"
 #include "risorius/render/detail/skin_plan.h"
 
 namespace risorius::render {
@@ -34,8 +35,12 @@ void WornLayer::touch(const Eigen::Matrix4f& clip_from_world, PictureCells& cell
     garment_.touch(clip_from_world, cells);
 }
 
-void WornLayer::look_up(const PictureCells& cells) {
-    locks_.look_up(cells);
+void WornLayer::look_up(const PictureCells& cells, const SkinLayer& layer) {
+    if (!locks_.empty()) {
+        layer.use(kHairBeyond_m);
+        locks_.look_up(cells);
+        layer.use();
+    }
     garment_.look_up(cells);
 }
 

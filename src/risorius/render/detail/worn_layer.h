@@ -5,6 +5,7 @@
 
 #include "risorius/render/detail/garment_layer.h"
 #include "risorius/render/detail/lock_layer.h"
+#include "risorius/render/detail/skin_layer.h"
 
 namespace risorius::render {
 
@@ -21,7 +22,7 @@ class WornLayer {
     /// The functions of the layers of the same names, for both.
     void draw() const;
     void touch(const Eigen::Matrix4f& clip_from_world, PictureCells& cells);
-    void look_up(const PictureCells& cells);
+    void look_up(const PictureCells& cells, const SkinLayer& layer);
     const LockLayer& locks() const { return locks_; }  ///< what throws shadow
 
   private:
