@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The picture of hair cards (hair_cards.h): colour of the strands, and cells whose alpha cuts rims and ends.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -35,13 +35,12 @@ void WornLayer::touch(const Eigen::Matrix4f& clip_from_world, PictureCells& cell
     garment_.touch(clip_from_world, cells);
 }
 
-void WornLayer::look_up(const PictureCells& cells, const SkinLayer& layer) {
-    if (!locks_.empty()) {
-        layer.use(kHairBeyond_m);
-        locks_.look_up(cells);
-        layer.use();
-    }
-    garment_.look_up(cells);
+void WornLayer::look_up_hair(const PictureCells& cells, const SkinLayer& layer) {
+    if (locks_.empty()) return;
+    layer.use(kHairBeyond_m);
+    locks_.look_up(cells);
 }
+
+void WornLayer::look_up_garment(const PictureCells& cells) { garment_.look_up(cells); }
 
 }  // namespace risorius::render
