@@ -62,6 +62,12 @@ TEST(Documents, PageOfTheThesisHasEveryClaimWithItsVerdict) {
     EXPECT_GT(page.find("**missed**"), 0u);
 }
 
+TEST(Documents, PageOfThePeopleIsMadeOfWhatWasMeasured) {
+    const std::string tool = (kRoot / "tools/docs/people_page.py").string();
+    EXPECT_EQ(run_shell("python3 \"" + tool + "\" --check").code, 0)
+        << "tools/docs/people_page.py makes docs/validation/people.md anew";
+}
+
 // Pages and comments name sources by module and file: "face/face.cpp".
 TEST(Documents, SourcesThatPagesAndCommentsNameAreThere) {
     std::string modules;

@@ -62,6 +62,23 @@ TEST(Locks, EveryStyleHasLocksThatLieOnTheHeadAndNoTwoAreAlike) {
     EXPECT_EQ(counts.size() + 1, hair_style_names().size());
 }
 
+TEST(Locks, ThereAreFewRowsWhereALockIsStraightAndAllOfThemWhereItCurls) {
+    const HairyHead head;
+    const auto rows = [&](const char* style) {  // mean of the locks that are no single hairs
+        const Hair hair = hair_on(head.scene, style);
+        double sum = 0, locks = 0;
+        for (const HairPiece& piece : hair.pieces)
+            if (piece.columns > 0 && piece.casts) {
+                sum += static_cast<double>(piece.rows);
+                ++locks;
+                EXPECT_GE(piece.rows, 2U);
+            }
+        return sum / locks;
+    };
+    EXPECT_LT(rows("bob"), 0.65 * 25);         // of 24 segments
+    EXPECT_GT(rows("curly_short"), 0.9 * 10);  // of 9
+}
+
 TEST(Locks, HairTurnsWithTheHead) {
     const HairyHead head;
     const Hair hair = hair_on(head.scene, "bob");

@@ -77,6 +77,58 @@ TEST(SurfacePasses, BrowsAndTheScalpBeyondTheHairlineArePartsOfTheirOwn) {
     EXPECT_EQ(std::count(bare.begin(), bare.end(), static_cast<std::uint16_t>(Part::kHair)), 0);
 }
 
+TEST(SurfacePasses, LocksOfHairAreHairAndHideWhatLiesBehindThem) {
+    RoundHead head;
+    auto& marks = head.scene.landmarks;
+    marks["tr"] = RoundHead::on_skin(0, 0.06);
+    marks["fht_l"] = RoundHead::on_skin(0.05, 0.04);
+    marks["fht_r"] = RoundHead::on_skin(-0.05, 0.04);
+    marks["op"] = Vec3(0, 0.02, -0.098);
+    marks["go_l"] = RoundHead::on_skin(0.06, -0.06);
+    marks["bm_l"] = RoundHead::on_skin(0.02, 0.02);
+    head.scene.appearance.hair_style = "bob";
+    const auto passes_over = [&](SurfacePasses::Over over = SurfacePasses::Over::kLocksToo) {
+        return SurfacePasses(head.scene, camera_ahead(true), kPictureWidth, kPictureHeight, over);
+    };
+    const auto pixel = [](double x, double y) {  // 0.4 m are 80 px
+        return pixel_at(60 + static_cast<int>(200 * x), 40 - static_cast<int>(200 * y));
+    };
+    const SurfacePasses free = passes_over();
+    const SeenSurface seen = free.look(head.scene.rest);
+    const std::vector<std::uint16_t> parts = free.parts(seen);
+    const auto part = [&](double x, double y) { return static_cast<Part>(parts[pixel(x, y)]); };
+    // The hair hangs beside the head, where there is no skin.
+    EXPECT_EQ(part(0.095, -0.045), Part::kHair);
+    EXPECT_TRUE(free.shows_lock(seen, pixel(0.095, -0.045)));
+    EXPECT_EQ(part(0, 0.045), Part::kSkin);
+    EXPECT_FALSE(free.shows_lock(seen, pixel(0, 0.045)));
+    const SurfacePasses bare = passes_over(SurfacePasses::Over::kSkinAlone);
+    EXPECT_EQ(bare.parts(bare.look(head.scene.rest))[pixel(0.095, -0.045)], 0);
+    // It is nearer than the skin on top of the head, faces the camera, and turns with the head.
+    const auto depth = [&](const SurfacePasses& of, double x, double y) {
+        return static_cast<double>(of.depth(of.look(head.scene.rest))[pixel(x, y)]);
+    };
+    EXPECT_LT(depth(free, 0, 0.085), depth(bare, 0, 0.085) - 0.002);
+    const std::vector<float> normals = free.normals(seen);
+    std::size_t locks = 0, towards = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (free.shows_lock(seen, i)) {
+            ++locks;
+            towards += normals[3 * i + 2] > -0.3F;
+        }
+    EXPECT_GT(locks, 300u);
+    EXPECT_GT(static_cast<double>(towards), 0.9 * static_cast<double>(locks));
+    Points moved = head.scene.rest;
+    moved.col(0).array() += 0.01;  // 2 px to the right
+    const std::vector<float> flow = free.flow(seen, free.look(moved));
+    EXPECT_NEAR(flow[3 * pixel(0.095, -0.045)], 2, 1e-3);
+    // A fringe hides the forehead.
+    head.scene.appearance.fringe = 1;
+    const SurfacePasses fringed = passes_over();
+    EXPECT_EQ(fringed.parts(fringed.look(head.scene.rest))[pixel(0, 0.045)],
+              static_cast<std::uint16_t>(Part::kHair));
+}
+
 TEST(SurfacePasses, ASquareAMetreAwayIsThatDeepAndFacesTheCamera) {
     for (const bool orthographic : {false, true}) {
         const SurfacePasses passes(square_scene(), camera_ahead(orthographic), kPictureWidth,

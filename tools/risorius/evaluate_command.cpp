@@ -107,15 +107,18 @@ void print(const inverse::UnitReadings& readings) {
                 ".5", ".75", "eye", "width", "gap", "corner", "fold", "frown", "brow", "touch",
                 "landmarks: gain along the target");
     for (const scene::UnitReading& one : readings.units) {
-        std::printf("  %-6s %5.2f %5.2f %5.2f %5.2f %+6.1f %+6.1f %+6.1f %+6.1f ", one.unit.c_str(),
-                    one.gain, one.response[0], one.response[1], one.response[2],
-                    one.change.lid_aperture, one.change.mouth_width, one.change.lip_gap,
-                    one.change.corner_height);
+        std::printf("  %-6s %5.2f", one.unit.c_str(), one.gain);
+        for (const double share : one.response) std::printf(" %5.2f", share);
+        if (one.response.empty()) std::printf(" %5s %5s %5s", "-", "-", "-");
+        std::printf(" %+6.1f %+6.1f %+6.1f %+6.1f ", one.change.lid_aperture,
+                    one.change.mouth_width, one.change.lip_gap, one.change.corner_height);
         std::printf("%+6.1f %+6.1f %+6.1f %+6.0f ", one.change.nasolabial_furrow,
                     one.change.glabellar_furrow, one.change.forehead_furrow,
                     one.change.lip_contact_mm2);
         for (const scene::LandmarkReading& mark : one.landmarks)
             std::printf(" %s %.2f", mark.landmark.c_str(), mark.gain);
+        if (one.faults.inverted_tets > 0)
+            std::printf("  %d tetrahedra inverted", one.faults.inverted_tets);
         std::printf("%s\n", one.in_equilibrium ? "" : "  did not come to rest");
     }
     std::printf(
@@ -207,6 +210,9 @@ void add_evaluate(CLI::App& app) {
     command->add_flag("--facs", arguments->facs,
                       "Instead of --shapes: measure the action units of RIG as a FACS coder would: "
                       "landmarks against the targets of its table, eye opening, mouth");
+    command->add_flag("!--no-steps", arguments->units.steps,
+                      "With --facs: measure each unit at full intensity only, not at .25, .5 and "
+                      ".75, which takes a third of the time");
     command->add_flag("--kit", arguments->units.kit,
                       "With --facs and --out: also make a kit for coders, clips whose names do not "
                       "tell what they show, of units and combinations in a random order, a sheet "

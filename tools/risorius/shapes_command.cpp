@@ -115,6 +115,26 @@ void add_correctives(CLI::App& command, blendshapes::ShapesOptions& options) {
         ->check(CLI::Range(0.0, 2000.0));
 }
 
+void add_parts(CLI::App& command, blendshapes::ShapesOptions& options) {
+    command
+        .add_option("--eyes", options.eyes,
+                    "What turns the eyeballs in shapes.glb: \"morph\", their shapes eyeLook...; "
+                    "\"bone\", the nodes LeftEye and RightEye; \"both\", and the animation turns "
+                    "the nodes")
+        ->capture_default_str();
+    command
+        .add_option("--hair", options.hair,
+                    "Hair on the scalp in shapes.glb and shapes.usda. \"own\": the hair of the "
+                    "rig, as cards with a picture; \"none\": no hair")
+        ->capture_default_str();
+    command
+        .add_option("--levels", options.levels,
+                    "Number of coarser levels of detail to write, 0 to 4: shapes_lod1.glb and so "
+                    "on, each with half the triangles of the one before, and the same shapes")
+        ->check(CLI::Range(0, blendshapes::kMaxLevels))
+        ->capture_default_str();
+}
+
 }  // namespace
 
 void add_shapes(CLI::App& app) {
@@ -181,18 +201,7 @@ void add_shapes(CLI::App& app) {
                      "those of the other parts have half of it. Parts with pictures of the mesh "
                      "keep those. 0: plain colours")
         ->capture_default_str();
-    command
-        ->add_option("--eyes", options.eyes,
-                     "What turns the eyeballs in shapes.glb: \"morph\", their shapes eyeLook...; "
-                     "\"bone\", the nodes LeftEye and RightEye; \"both\", and the animation turns "
-                     "the nodes")
-        ->capture_default_str();
-    command
-        ->add_option("--levels", options.levels,
-                     "Number of coarser levels of detail to write, 0 to 4: shapes_lod1.glb and so "
-                     "on, each with half the triangles of the one before, and the same shapes")
-        ->check(CLI::Range(0, blendshapes::kMaxLevels))
-        ->capture_default_str();
+    add_parts(*command, options);
     command
         ->add_option("--maps", options.maps_px,
                      "Side in pixels (256 to 4096) of the maps of each shape on the texture of the "

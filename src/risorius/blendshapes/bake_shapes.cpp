@@ -111,6 +111,11 @@ bool wants(const ShapesOptions& options, const char* format) {
                                                 format) != options.formats.end();
 }
 
+// Whether the hair of the rig is part of the files. Throws Error for another name.
+bool has_hair(const ShapesOptions& options) {
+    return index_of_name(option_name("hair"), options.hair, {"own", "none"}) == 0;
+}
+
 // Writes the head for other programs, as glTF and as USD. Returns the names of the files.
 std::vector<std::string> write_models(const scene::RigFiles& files, const face::Face& face,
                                       const ShapesOptions& options, ShapesReport& report,
@@ -122,7 +127,7 @@ std::vector<std::string> write_models(const scene::RigFiles& files, const face::
     io::MorphModel model =
         morph_model(files, face, report.shapes, report.set, report.correctives.rig,
                     report.animation ? &*report.animation : nullptr, options.texture_px,
-                    eyes_named(options.eyes));
+                    eyes_named(options.eyes), has_hair(options));
     model.whole_numbers = options.compact;
     std::vector<std::string> written;
     const auto write = [&](const char* name, const std::string& bytes) {
@@ -249,6 +254,7 @@ void check_options(const ShapesOptions& options) {
         throw Error(option_name("levels"), "0.." + std::to_string(kMaxLevels),
                     std::to_string(options.levels));
     eyes_named(options.eyes);
+    has_hair(options);
 }
 
 }  // namespace

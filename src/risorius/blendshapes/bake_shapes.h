@@ -35,6 +35,7 @@ struct ShapesOptions {
     int texture_px = 1024;
     std::string eyes =
         "both";  ///< what turns the eyeballs in the .glb: "morph", "bone" or "both", see morph_head.h
+    std::string hair = "own";  ///< of the .glb and .usda: "own", the locks of the rig, or "none"
     /// Number of coarser levels of detail to write, 0 to kMaxLevels; each has half the triangles of the one before
     int levels = 0;
     bool pictures = true;

@@ -59,7 +59,12 @@ Json UnitReadings::json() const {
                                     {"change", measures_json(one.change)},
                                     {"uneven_mm", one.uneven_mm},
                                     {"landmarks", marks},
-                                    {"in_equilibrium", one.in_equilibrium}}));
+                                    {"in_equilibrium", one.in_equilibrium},
+                                    {"inverted_tets", one.faults.inverted_tets},
+                                    {"volume_change", one.faults.volume_change},
+                                    {"lip_depth_mm", one.faults.lip_depth_mm},
+                                    {"eye_depth_mm", one.faults.eye_depth_mm},
+                                    {"bone_depth_mm", one.faults.bone_depth_mm}}));
     }
     return json_object({{"format", "risorius-unit-readings"},
                         {"version", 1},
@@ -205,7 +210,7 @@ UnitReadings read_units(const UnitOptions& options, const ProgressMonitor& monit
         monitor.report(
             reading * static_cast<double>(out.units.size()) / static_cast<double>(units.size()),
             unit->id);
-        out.units.push_back(reader.read(*unit));
+        out.units.push_back(reader.read(*unit, options.steps));
     }
     if (folder) {
         write_report(out, options, files, face, reader.neutral_pose(), folder->partial(), reading,

@@ -28,6 +28,7 @@ struct UnitOptions {
     std::vector<std::string> only = {};  ///< ids of units; empty: all with landmark targets
     std::string quality = "preview";
     bool pictures = true;
+    bool steps = true;       ///< also at a quarter, a half and three quarters of the intensity
     bool kit = false;        ///< also a kit of clips for coders; needs `out`
     std::uint64_t seed = 1;  ///< order of the clips of the kit
 };

@@ -68,7 +68,9 @@ struct Distances {
 
 MorphModel coarser_model(const MorphModel& model, double fraction) {
     MorphModel out = model;
-    for (MorphPart& part : out.parts) make_coarser(out.vertices, fraction, part);
+    for (MorphPart& part : out.parts)
+        if (part.triangles.size() > 0 && part.triangles(0, 0) < model.first_worn())
+            make_coarser(out.vertices, fraction, part);
     return out;
 }
 

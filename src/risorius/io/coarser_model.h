@@ -11,7 +11,8 @@
 
 namespace risorius::io {
 
-/// Returns the model with about this fraction of its triangles. Small parts keep theirs.
+/// Returns the model with about this fraction of its triangles. Small parts and what is worn keep
+/// theirs.
 MorphModel coarser_model(const MorphModel& model, double fraction);
 
 LevelError level_error(const MorphModel& fine, const MorphModel& coarse);

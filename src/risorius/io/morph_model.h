@@ -4,7 +4,8 @@
 ///
 /// Coordinates are metres, y is up and the face looks along +z, as glTF requires. Every node with parts has a mesh of its own,
 /// and every part is a primitive of it, with a material and only the vertices it needs, in the order of the mesh; the attribute
-/// _VERTEX has their indices in the mesh. Vertices lie around the place of their node.
+/// _VERTEX has their indices in the mesh. Vertices lie around the place of their node. What is worn on the head, such as hair, has meshes
+/// of its own without that attribute.
 ///
 /// Blend shapes are morph targets of positions and, on what they turn, of normals: a part whose normals rest in places is two primitives
 /// with one material. Targets are stored where they are not zero (sparse accessors), and their names are in the meshes' extras.targetNames. The first mesh has all of them, the others those that move them. On
@@ -54,7 +55,9 @@ struct MorphPart {
     bool see_both_sides = false;
     int picture = -1;           ///< index in MorphModel::pictures: multiplies the colour; -1: none
     bool picture_cuts = false;  ///< the alpha of the picture is the opacity
-    bool normals_turn = true;   ///< false: targets have no normals, since nobody sees them
+    double cut_at =
+        0;  ///< of picture_cuts: what has less alpha is left out, all else is opaque; 0: it blends
+    bool normals_turn = true;  ///< false: targets have no normals, since nobody sees them
 };
 
 /// A node of the hierarchy. It is a joint when the skin names it.
@@ -93,8 +96,12 @@ struct MorphAnimation {
 struct MorphModel {
     std::string name;
     Points vertices;  ///< V x 3, m, head frame
+    /// W x 3, unit length: the last W vertices are of what is worn. They have these normals, and no vertices in the mesh.
+    Points worn_normals;
     /// V; for each vertex, the vertex at the same position with which it shares its normal; empty: no vertices share normals.
     std::vector<int> stands_for;
+    /// Index of the first vertex that is worn.
+    long first_worn() const { return vertices.rows() - worn_normals.rows(); }
     std::vector<MorphNode> nodes;  ///< empty: one node at the origin with the name of the model
     std::vector<MorphPart> parts;
     std::vector<MorphPicture> pictures;
@@ -113,7 +120,7 @@ struct MorphModel {
 std::string glb_bytes(const MorphModel& model);
 
 /// Reads a file that glb_bytes() wrote: vertices, targets, extras and animated weights, but of the parts only the name and the
-/// triangles, and no nodes. Throws Error for other files.
+/// triangles, no nodes, and nothing that is worn. Throws Error for other files.
 MorphModel read_glb(const std::filesystem::path& file);
 
 }  // namespace risorius::io

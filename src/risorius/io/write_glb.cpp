@@ -88,6 +88,10 @@ tinygltf::Material material_of(const MorphPart& part) {
                                                 linear_of_srgb(part.colour[1]),
                                                 linear_of_srgb(part.colour[2]), part.opacity};
     if (part.opacity < 1 || part.picture_cuts) out.alphaMode = "BLEND";
+    if (part.picture_cuts && part.cut_at > 0) {
+        out.alphaMode = "MASK";
+        out.alphaCutoff = part.cut_at;
+    }
     if (part.picture >= 0) out.pbrMetallicRoughness.baseColorTexture.index = part.picture;
     out.pbrMetallicRoughness.metallicFactor = 0;
     out.pbrMetallicRoughness.roughnessFactor = part.roughness;
@@ -270,8 +274,10 @@ class GlbWriter {
             unit_ == 0
                 ? packer_.floats(normals, TINYGLTF_TYPE_VEC3, false, kVertexData)
                 : packer_.integers(whole<signed char>(normals, 1 / kMaxByte), 3, true, false);
-        primitive.attributes["_VERTEX"] = packer_.floats(
-            Floats(own.vertex.begin(), own.vertex.end()), TINYGLTF_TYPE_SCALAR, false, kVertexData);
+        if (own.vertex.front() < model_.first_worn())
+            primitive.attributes["_VERTEX"] =
+                packer_.floats(Floats(own.vertex.begin(), own.vertex.end()), TINYGLTF_TYPE_SCALAR,
+                               false, kVertexData);
         if (part.texcoords.rows() > 0) {
             Floats coordinates;
             for (const auto& [u, v] : own.texcoord) {

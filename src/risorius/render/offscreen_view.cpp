@@ -211,11 +211,12 @@ struct OffscreenView::Impl {
     void look_up_skin(const Tile& tile) {
         target->bind_bytes();
         cell_clear->clear(cells, tile.width, tile.height);
+        worn->look_up_hair(cells, *skin_layer);
         buffers->bind();
         skin_layer->use();
         for (const Batch& batch : buffers->batches())
             if (batch.material == Material::kSkin) buffers->draw(batch);
-        worn->look_up(cells);
+        worn->look_up_garment(cells);
         buffers->bind();
     }
 

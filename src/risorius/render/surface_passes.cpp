@@ -10,6 +10,7 @@
 #include "risorius/render/detail/garment.h"
 #include "risorius/render/detail/hair_area.h"
 #include "risorius/render/detail/lip_area.h"
+#include "risorius/render/detail/locks.h"
 
 namespace risorius::render {
 
@@ -70,7 +71,7 @@ const std::vector<std::string>& part_names() {
 }
 
 SurfacePasses::SurfacePasses(const Scene& scene, const Eigen::Matrix4d& clip_from_world,
-                             int width_px, int height_px)
+                             int width_px, int height_px, Over over)
     : width_(width_px),
       height_(height_px),
       clip_from_world_(clip_from_world),
@@ -102,13 +103,25 @@ SurfacePasses::SurfacePasses(const Scene& scene, const Eigen::Matrix4d& clip_fro
             part_.push_back(part_of(surface, middle, eyes_, lips));
         }
     }
+    first_lock_ = static_cast<int>(triangles_.rows());
+    locks_ = std::make_shared<Hair>(over == Over::kLocksToo ? plan_hair(scene) : Hair{});
+    const Triangles locks =
+        triangles_from_outside(*locks_, rest_).array() + static_cast<int>(rest_.rows());
+    triangles_.conservativeResize(first_lock_ + locks.rows(), 3);
+    triangles_.bottomRows(locks.rows()) = locks;
+    part_.resize(static_cast<std::size_t>(triangles_.rows()), Part::kHair);
 }
 
 SeenSurface SurfacePasses::look(const Points& positions) const {
     if (positions.rows() != rest_.rows())
         throw Error("pose/positions", std::to_string(rest_.rows()) + " rows",
                     std::to_string(positions.rows()));
-    return see_surface(positions, triangles_, clip_from_world_, width_, height_);
+    if (locks_->empty())
+        return see_surface(positions, triangles_, clip_from_world_, width_, height_);
+    const Points locks = pose_hair(*locks_, rest_, positions).positions;
+    Points all(positions.rows() + locks.rows(), 3);
+    all << positions, locks;
+    return see_surface(all, triangles_, clip_from_world_, width_, height_);
 }
 
 Vec3 SurfacePasses::at(const SeenSurface& seen, std::size_t pixel, const Points& positions) const {
@@ -152,7 +165,7 @@ std::vector<float> SurfacePasses::depth(const SeenSurface& seen) const {
 }
 
 std::vector<float> SurfacePasses::normals(const SeenSurface& seen) const {
-    Points smooth = Points::Zero(rest_.rows(), 3);
+    Points smooth = Points::Zero(seen.positions.rows(), 3);
     for (Eigen::Index f = 0; f < triangles_.rows(); ++f) {
         const Vec3 a = seen.positions.row(triangles_(f, 0)),
                    b = seen.positions.row(triangles_(f, 1)),

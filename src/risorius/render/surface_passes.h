@@ -4,7 +4,7 @@
 /// the mesh, not from the picture, by a rasterizer in software without OpenGL.
 ///
 /// There is one sample at the centre of each pixel and no averaging: a pixel belongs to one part. Cornea and lashes count as
-/// transparent. The bytes are the same on every machine and for any number of threads.
+/// transparent, the locks of a style of hair do not. The bytes are the same on every machine and for any number of threads.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ enum class Part : std::uint8_t {
     kGums,
     kTongue,
     kMouth,  ///< the inside of the mouth
-    kHair,   ///< hair of the scalp where it grows on visible skin
+    kHair,   ///< locks of hair, and visible skin of the scalp on which hair is painted
     kBrowLeft,
     kBrowRight,
     kGarment,
@@ -45,18 +45,26 @@ const std::vector<std::string>& part_names();
 
 class HairArea;
 class Neckline;
+struct Hair;
 
 /// Rasterizes poses of one scene for one camera.
 class SurfacePasses {
   public:
+    /// What of the scene there is.
+    enum class Over { kSkinAlone, kLocksToo };
+
     /// `clip_from_world`: as of OffscreenView::clip_from_world().
     SurfacePasses(const Scene& scene, const Eigen::Matrix4d& clip_from_world, int width_px,
-                  int height_px);
+                  int height_px, Over over = Over::kLocksToo);
 
-    /// Rasterizes a pose. `positions`: V x 3, m, world.
+    /// Rasterizes a pose. `positions`: V x 3, m, world. Those of the locks come after them in the result.
     SeenSurface look(const Points& positions) const;
 
     std::vector<std::uint16_t> parts(const SeenSurface& seen) const;  ///< values of Part
+    /// Whether a pixel shows a lock, and not the skin on which hair may be painted.
+    bool shows_lock(const SeenSurface& seen, std::size_t pixel) const {
+        return seen.triangle[pixel] >= first_lock_;
+    }
     /// Returns the distance from the camera along its axis, m, one per pixel. An orthographic camera measures it from the near
     /// plane. The background is infinitely far away.
     std::vector<float> depth(const SeenSurface& seen) const;
@@ -81,7 +89,9 @@ class SurfacePasses {
 
     int width_, height_;
     Eigen::Matrix4d clip_from_world_;
-    Triangles triangles_;
+    Triangles triangles_;  ///< of the scene, and from first_lock_ on of the locks
+    int first_lock_ = 0;
+    std::shared_ptr<const Hair> locks_;
     std::vector<Part> part_;  ///< per triangle; kScleraLeft or kScleraRight for the whole eye
     Points rest_;
     std::array<Eye, 2> eyes_;

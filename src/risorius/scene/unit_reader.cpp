@@ -2,8 +2,11 @@
 #include "risorius/scene/unit_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "risorius/face/anatomy/lid_measures.h"
+#include "risorius/face/diagnostics.h"
 #include "risorius/rig/expression_drive.h"
 
 namespace risorius::scene {
@@ -33,6 +36,7 @@ UnitReader::UnitReader(face::Face& face, const rig::RigDescription& rig, double 
       channels_(rig.channels()) {
     rest_.excitation = Eigen::VectorXd::Zero(channels_.column_count());
     neutral_ = pose(track::Expansion::none(channels_)).pose;
+    volume_m3_ = face_.diagnostics().tissue_volume_m3();
 }
 
 FaceMeasures FaceMeasures::operator-(const FaceMeasures& other) const {
@@ -60,14 +64,15 @@ FaceMeasures UnitReader::measures(const face::FacePose& pose) const {
             skin_.lip_contact_mm2(pose)};
 }
 
-UnitReading UnitReader::read(const track::ActionUnit& unit) {
-    UnitReading out{unit.id, unit.name, targets(unit), 0, {}, {}, 0, true, {}};
+UnitReading UnitReader::read(const track::ActionUnit& unit, bool steps) {
+    UnitReading out{unit.id, unit.name, targets(unit), 0, {}, {}, 0, true, {}, {}};
     const track::Expansion whole = track::expand(unit, std::nullopt, channels_);
     const face::FacePose& from = base(unit);
     track::Expansion all = others(unit);
     all.add(whole, 1.0);
     const Pose full = pose(all);
     out.in_equilibrium = full.in_equilibrium;
+    out.faults = full.faults;
     out.pose = full.pose;
     for (LandmarkReading& one : out.landmarks) {
         one.moved_mm = moved_mm(side_of(one.landmark), from.vertices, full.pose.vertices);
@@ -76,10 +81,11 @@ UnitReading UnitReader::read(const track::ActionUnit& unit) {
     out.gain = along(out.landmarks);
     out.change = measures(full.pose) - measures(from);
     out.uneven_mm = uneven_mm(out, from.vertices);
-    for (std::size_t i = 0; i < kIntensities.size(); ++i) {
+    if (!steps) return out;
+    for (const double intensity : kIntensities) {
         track::Expansion part = track::Expansion::none(channels_);
-        part.add(whole, unit.curve, kIntensities[i]);
-        out.response[i] = out.gain == 0 ? 0 : gain(unit, part) / out.gain;
+        part.add(whole, unit.curve, intensity);
+        out.response.push_back(out.gain == 0 ? 0 : gain(unit, part) / out.gain);
     }
     return out;
 }
@@ -129,13 +135,19 @@ double UnitReader::uneven_mm(const UnitReading& reading, const Points& from) con
 UnitReader::Pose UnitReader::pose(const track::Expansion& sum) {
     const track::Drive drive = rig::clamped_drive(sum, channels_);
     face_.start([&](double) { return rest_; });
-    const bool converged = face_
-                               .solve_equilibrium(drive.excitation, drive,
-                                                  {.iterations = face::kRestIterations,
-                                                   .tolerance_m = tolerance_m_,
-                                                   .planes_m = tolerance_m_})
-                               .converged;
-    return {face_.pose(), converged};
+    const face::StepStats found = face_.solve_equilibrium(drive.excitation, drive,
+                                                          {.iterations = face::kRestIterations,
+                                                           .tolerance_m = tolerance_m_,
+                                                           .planes_m = tolerance_m_});
+    const face::FacePose shown = face_.pose();
+    const face::Diagnostics tissue = face_.diagnostics();
+    return {
+        shown,
+        found.converged,
+        {tissue.inverted_tets(), volume_m3_ > 0 ? tissue.tissue_volume_m3() / volume_m3_ - 1 : 0,
+         1e3 * found.lip_depth_m,
+         1e3 * face::depth_in_eyes_m(face_.head(), shown.eye_rotation, shown.vertices),
+         1e3 * found.bone_depth_m}};
 }
 
 std::vector<LandmarkReading> UnitReader::targets(const track::ActionUnit& unit) const {

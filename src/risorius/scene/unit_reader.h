@@ -12,7 +12,6 @@
 ///   response  the fraction of its own full way, measured in the same direction, at intensity 0.25, 0.5 and 0.75
 #pragma once
 
-#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -48,17 +47,27 @@ struct FaceMeasures {
     FaceMeasures operator-(const FaceMeasures& other) const;
 };
 
+/// What goes wrong in the tissue in a pose. Depths and volume are changes from rest.
+struct TissueFaults {
+    int inverted_tets = 0;     ///< that are turned inside out
+    double volume_change = 0;  ///< of all tissue, a ratio
+    double lip_depth_mm = 0;   ///< of one lip in the other, at nodes
+    double eye_depth_mm = 0;   ///< of the skin in the eyes, at vertices
+    double bone_depth_mm = 0;  ///< of tissue in bone and teeth, at nodes
+};
+
 struct UnitReading {
     std::string unit;  ///< "AU12"
     std::string name;  ///< "Lip corner puller"
     std::vector<LandmarkReading> landmarks;
     double gain = 0;
-    std::array<double, 3> response{};
+    std::vector<double> response;  ///< three, or none where they were not asked for
     FaceMeasures change;  ///< at intensity 1, from the neutral face or the units it is seen with
     double uneven_mm =
         0;  ///< largest difference of a landmark from the mirror image of its partner, or of a middle one from the middle
     bool in_equilibrium = true;
-    face::FacePose pose;  ///< at intensity 1
+    TissueFaults faults;  ///< at intensity 1
+    face::FacePose pose;  ///< the same
 };
 
 /// Reads the units of one face. The face is left in the last pose.
@@ -71,8 +80,8 @@ class UnitReader {
     const Points& neutral() const { return neutral_.vertices; }  ///< V x 3, m
     const face::FacePose& neutral_pose() const { return neutral_; }
     FaceMeasures measures(const face::FacePose& pose) const;
-    /// Reads the unit at full intensity and at a quarter, a half and three quarters. It needs landmark targets.
-    UnitReading read(const track::ActionUnit& unit);
+    /// Reads the unit at full intensity and, with `steps`, at a quarter, a half and three quarters. It needs landmark targets.
+    UnitReading read(const track::ActionUnit& unit, bool steps = true);
     /// Returns the gain of `sum` along the targets of `unit`.
     double gain(const track::ActionUnit& unit, const track::Expansion& sum);
 
@@ -80,6 +89,7 @@ class UnitReader {
     struct Pose {
         face::FacePose pose;
         bool in_equilibrium;
+        TissueFaults faults;
     };
     Pose pose(const track::Expansion& sum);
     track::Expansion others(const track::ActionUnit& unit) const;
@@ -100,6 +110,7 @@ class UnitReader {
     track::ChannelTable channels_;
     track::Drive rest_;
     face::FacePose neutral_;
+    double volume_m3_ = 0;  ///< of the tissue of the neutral face
     std::map<std::string, face::FacePose>
         base_;  ///< of the units that a unit is seen with, by its id
 };

@@ -107,7 +107,8 @@ Visualization::Visualization(render::Show show, const render::Scene& scene, cons
     if (show == render::Show::kArticulation) articulation_.emplace(scene, head);
     if (show == render::Show::kWire) edges_ = edges_of(head, mesh);
     if (show == render::Show::kWire || show == render::Show::kLandmarks)
-        surface_.emplace(scene, view.clip_from_world(), width_px, height_px);
+        surface_.emplace(scene, view.clip_from_world(), width_px, height_px,
+                         render::SurfacePasses::Over::kSkinAlone);
 }
 
 double Visualization::scale_end(render::Show show, std::optional<double> given) {

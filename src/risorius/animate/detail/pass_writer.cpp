@@ -97,7 +97,8 @@ void PassWriter::write_masks(int frame, const render::SeenSurface& seen,
         for (int x = 0; x < width; ++x, ++i) {
             const auto at = static_cast<std::size_t>(i);
             if (parts[at] == 0) continue;
-            if (oval.contains({x + 0.5, y + 0.5})) face[at] = 255;
+            const bool lock = surface_.shows_lock(seen, at);
+            if (!lock && oval.contains({x + 0.5, y + 0.5})) face[at] = 255;
             if (is_of_eye(parts[at])) eyes[at] = 255;
             if (is_of_mouth(parts[at])) mouth[at] = 255;
         }

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "risorius/blendshapes/detail/corrective_drivers.h"
+#include "risorius/blendshapes/detail/morph_hair.h"
 #include "risorius/blendshapes/detail/morph_head.h"
 #include "risorius/blendshapes/detail/mouth_shade.h"
 #include "risorius/blendshapes/detail/point_cache.h"
@@ -49,7 +50,8 @@ double shortened(double value) {
 io::MorphModel morph_model(const scene::RigFiles& files, const face::Face& face,
                            const MadeShapes& shapes, const std::string& set,
                            const blendshapes::BlendShapeRig& linear,
-                           const ShapeAnimation* animation, int texture_px, EyesBy eyes) {
+                           const ShapeAnimation* animation, int texture_px, EyesBy eyes,
+                           bool hair) {
     const rig::Head& head = face.head();
     io::MorphModel model = morph_head(files, face, texture_px, eyes);
     for (const MadeShape& made : shapes.list)
@@ -82,6 +84,7 @@ io::MorphModel morph_model(const scene::RigFiles& files, const face::Face& face,
         for (const double fraction : corrective.of_drivers)
             listed["of_terms"].push_back(fraction == 0 ? Json(0) : Json(shortened(fraction)));
     }
+    if (hair) add_hair(files, head, model);
     Json on_top = Json::object();
     for (const MadeShape& made : shapes.list)
         if (made.goal.on_top_of >= 0)

@@ -19,11 +19,11 @@
 namespace risorius::blendshapes {
 
 /// Returns a glTF model of the head, see morph_head(). The shapes are its morph targets, followed by the correctives. The glTF
-/// extras hold the rig, the set, and under "correctives" the drivers of the correctives. `animation` may be null.
+/// extras hold the rig, the set, and under "correctives" the drivers of the correctives. `animation` may be null. `hair`: with the locks of the rig.
 io::MorphModel morph_model(const scene::RigFiles& files, const face::Face& face,
                            const MadeShapes& shapes, const std::string& set,
                            const blendshapes::BlendShapeRig& linear,
-                           const ShapeAnimation* animation, int texture_px, EyesBy eyes);
+                           const ShapeAnimation* animation, int texture_px, EyesBy eyes, bool hair);
 
 /// Writes every vertex in every frame of the animation, in mesh units, computed with the blend shape rig. `head_turns`: with the
 /// motion of head and eyes, as in a video, instead of by shapes alone. Of `formats`, "cache" is

@@ -39,6 +39,8 @@ void write_numbers(report::HtmlWriter& html, const scene::UnitReading& one) {
     };
     cell("%.2f", one.gain);
     for (const double share : one.response) cell("%.2f", share);
+    for (std::size_t i = one.response.size(); i < 3; ++i)
+        html.element("td", "-", {{"class", "number"}});
     for (const double change :
          {one.change.lid_aperture, one.change.mouth_width, one.change.lip_gap,
           one.change.corner_height, one.change.nasolabial_furrow, one.change.glabellar_furrow,

@@ -45,6 +45,7 @@ Points vertex_normals(const MorphModel& model, const Points& vertices) {
         }
     for (long v = 0; v < normals.rows(); ++v)
         if (shared(v) != v) normals.row(v) = normals.row(shared(v));
+    normals.bottomRows(model.worn_normals.rows()) = model.worn_normals;
     for (long v = 0; v < normals.rows(); ++v) {
         const double length = normals.row(v).norm();
         if (length > 1e-20)

@@ -17,11 +17,10 @@ namespace {
 constexpr int kLockFloats = 14;
 /// A lock faces away where the cosine of its outside and the way to the camera is below this
 constexpr double kTurnedAway = -0.25;
-const Vec3 kWhite(0.74, 0.70, 0.64);  ///< of a hair without pigment, sRGB
 
 ShaderConstants with_tones(const Appearance& appearance, ShaderConstants constants) {
     constants.set("hair_tone", linear_from_srgb(appearance.hair_tone));
-    constants.set("white_tone", linear_from_srgb(kWhite));
+    constants.set("white_tone", linear_from_srgb(kWhiteHair));
     constants.set("has_white", white_share(appearance) > 0);
     return constants;
 }
@@ -165,7 +164,7 @@ void LockLayer::touch(const Eigen::Matrix4f& clip_from_world, PictureCells& cell
             const Eigen::Vector3f& at = places[chosen_[i + k]];
             box.add(at.x(), at.y(), at.z());
         }
-        cells.touch(box);
+        cells.touch_hair(box);
         boxes_.push_back(box);
     }
 }

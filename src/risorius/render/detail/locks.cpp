@@ -7,6 +7,8 @@
 
 #include "risorius/core/rotations.h"
 #include "risorius/render/detail/lock_guides.h"
+#include "risorius/render/detail/skin_box.h"
+#include "risorius/render/detail/skin_paint.h"
 
 namespace risorius::render {
 namespace {
@@ -58,12 +60,38 @@ void add_ends(std::vector<HairVertex> end, double length_m, RandomSequence& rand
     }
 }
 
+/// The rows of a lock that are kept: a lock that is nearly straight needs few. Others are left out where both of its sides stay as
+/// near to the line between their neighbours as `kBend_m`. `lock`: rows of `columns` vertices with one root.
+std::vector<std::size_t> rows_kept(const std::vector<HairVertex>& lock, std::size_t columns) {
+    constexpr double kBend_m = 0.0003;
+    constexpr std::size_t kMostLeftOut = 3;
+    const std::size_t rows = lock.size() / columns;
+    const auto straight = [&](std::size_t from, std::size_t to) {
+        for (const std::size_t column : {std::size_t{0}, columns - 1}) {
+            const auto at = [&](std::size_t row) { return lock[row * columns + column].offset; };
+            const Vec3 way = at(to) - at(from);
+            for (std::size_t row = from + 1; row < to; ++row) {
+                const Vec3 p = at(row) - at(from);
+                const double along = p.dot(way) / std::max(way.squaredNorm(), 1e-12);
+                if ((p - std::clamp(along, 0.0, 1.0) * way).norm() > kBend_m) return false;
+            }
+        }
+        return true;
+    };
+    std::vector<std::size_t> kept{0};
+    while (kept.back() + 1 < rows) {
+        std::size_t to = kept.back() + 1;
+        while (to + 1 < rows && to - kept.back() <= kMostLeftOut && straight(kept.back(), to + 1))
+            ++to;
+        kept.push_back(to);
+    }
+    return kept;
+}
+
 void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
               const LockChance& chance, RandomSequence& random, Hair& hair) {
     const std::size_t rows = guide.points.size(), columns = static_cast<std::size_t>(style.across);
-    HairPiece piece{
-        hair.triangles.size(), 0, hair.vertices.size(), columns * rows, columns, rows, !guide.hangs,
-        !guide.single};
+    std::vector<HairVertex> lock;
     const bool tuft = style.flow == HairFlow::kRadial;
     const double half = 0.5e-3 * style.width_mm * guide.width * (0.75 + 0.5 * chance.tone);
     double along_m = kStrandsAlong_m * chance.along;
@@ -95,12 +123,25 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
             v.lit = lit;
             v.tone = (0.85 + 0.30 * chance.tone) * (0.85 + 0.25 * s);
             v.grey = guide.grey;
-            hair.vertices.push_back(v);
+            lock.push_back(v);
         }
     }
+    const std::vector<std::size_t> kept = rows_kept(lock, columns);
+    HairPiece piece{hair.triangles.size(),
+                    0,
+                    hair.vertices.size(),
+                    columns * kept.size(),
+                    columns,
+                    kept.size(),
+                    !guide.hangs,
+                    !guide.single};
+    for (const std::size_t at : kept)
+        hair.vertices.insert(hair.vertices.end(),
+                             lock.begin() + static_cast<std::ptrdiff_t>(at * columns),
+                             lock.begin() + static_cast<std::ptrdiff_t>((at + 1) * columns));
     const auto first = static_cast<unsigned>(piece.first_vertex),
                row = static_cast<unsigned>(columns);
-    for (unsigned i = 0; i + 1 < rows; ++i)
+    for (unsigned i = 0; i + 1 < kept.size(); ++i)
         for (unsigned k = 0; k + 1 < row; ++k) {
             const unsigned a = first + row * i + k, b = a + 1, c = a + row, d = c + 1;
             hair.triangles.insert(hair.triangles.end(), {a, b, d, a, d, c});
@@ -193,9 +234,14 @@ void add_cap(const LockGround& ground, const LockStyle& style, const Scene& scen
         }
     piece.indices = hair.triangles.size() - piece.first_index;
     piece.vertices = hair.vertices.size() - piece.first_vertex;
-    hair.casters.insert(hair.casters.end(),
-                        hair.triangles.begin() + static_cast<std::ptrdiff_t>(piece.first_index),
-                        hair.triangles.end());
+    // Of its shadow only the outline is seen.
+    constexpr unsigned kStep = 2;
+    for (unsigned column = 0; column < kCapColumns; column += kStep)
+        for (unsigned row = 0; row < kCapRows; row += kStep) {
+            const unsigned a = first + column * kRow + row, b = a + kStep, c = a + kStep * kRow,
+                           d = c + kStep;
+            hair.casters.insert(hair.casters.end(), {a, b, d, a, d, c});
+        }
     hair.pieces.push_back(piece);
     cover_skin(ground, scene, ahead, right, reaches, hair);
 }
@@ -242,6 +288,30 @@ Hair plan_hair(const Scene& scene, const SkinPlan& plan, const Vec3& paint_centr
     add_casters(hair);
     add_cap(ground, style, scene, hair);
     return hair;
+}
+
+Hair plan_hair(const Scene& scene) {
+    if (scene.appearance.hair_style == "shaven") return {};
+    const SkinBox box = box_of_skin(scene);
+    const Vec3 centre = paint_centre(scene, box.min, box.max);
+    return plan_hair(scene, plan_skin(scene, centre), centre);
+}
+
+Triangles triangles_from_outside(const Hair& hair, const Points& rest) {
+    std::vector<Vec3> roots;
+    for (const SkinPlace& root : hair.roots) roots.push_back(root.on(rest));
+    const auto place = [&](const HairVertex& v) -> Vec3 { return roots[v.root] + v.offset; };
+    Triangles out(static_cast<Eigen::Index>(hair.triangles.size()) / 3, 3);
+    for (Eigen::Index f = 0; f < out.rows(); ++f) {
+        const unsigned* corner = hair.triangles.data() + 3 * f;
+        const HairVertex &a = hair.vertices[corner[0]], &b = hair.vertices[corner[1]],
+                         &c = hair.vertices[corner[2]];
+        const bool outside =
+            (place(b) - place(a)).cross(place(c) - place(a)).dot(a.out + b.out + c.out) >= 0;
+        out.row(f) << static_cast<int>(corner[0]), static_cast<int>(corner[outside ? 1 : 2]),
+            static_cast<int>(corner[outside ? 2 : 1]);
+    }
+    return out;
 }
 
 PosedHair pose_hair(const Hair& hair, const Points& rest, const Points& positions) {

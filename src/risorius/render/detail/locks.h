@@ -47,6 +47,11 @@ struct Hair {
 /// Returns the hair of the scene's appearance; none for the style "shaven", for skin with a texture of its own, and for a head
 /// without the landmarks of a hairline.
 Hair plan_hair(const Scene& scene, const SkinPlan& plan, const Vec3& paint_centre);
+/// The same with the plan of the scene's skin.
+Hair plan_hair(const Scene& scene);
+
+/// Returns the triangles, counter-clockwise as seen from where their normals point.
+Triangles triangles_from_outside(const Hair& hair, const Points& rest);
 
 /// Where the hair is in a pose, m, world, one row per vertex, and how the head is turned from its rest.
 struct PosedHair {

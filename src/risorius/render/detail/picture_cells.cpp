@@ -9,13 +9,21 @@ namespace {
 /// Step between the distances of neighbours, in units of 1 mm (256 units per turn of 256 mm). Below it, the nearest place is good
 /// enough for a sample.
 constexpr int kMinStep = 3;
+/// The same in hair
+constexpr int kMinStepOfHair = 10;
 
 /// Branch-free difference of two distances, for vectorization; distances wrap around at 256.
+template <int kLeast>
+int apart(std::uint8_t a, std::uint8_t b) {
+    constexpr unsigned kMax = kLeast - 1;
+    return static_cast<int>(static_cast<std::uint8_t>(a - b + kMax) > 2 * kMax);
+}
+
+/// 0: no step; 1: one that counts outside of hair; more: one that counts everywhere.
 std::uint8_t step(std::uint8_t a, std::uint8_t b) {
-    constexpr unsigned kMax = kMinStep - 1;
-    const auto apart = static_cast<std::uint8_t>(a - b + kMax);
-    return static_cast<std::uint8_t>(static_cast<int>(apart > 2 * kMax) | static_cast<int>(a == 0) |
-                                     static_cast<int>(b == 0));
+    const int none = static_cast<int>(a == 0) | static_cast<int>(b == 0);
+    return static_cast<std::uint8_t>(apart<kMinStep>(a, b) | none |
+                                     2 * (apart<kMinStepOfHair>(a, b) | none));
 }
 
 }  // namespace
@@ -105,7 +113,8 @@ void PictureCells::find_steps(const std::vector<std::uint8_t>& rgba, int shaded)
         for (std::size_t x = 0; x < width; x += side, ++cell) {
             const auto from = steps_.begin() + static_cast<std::ptrdiff_t>(x),
                        to = steps_.begin() + static_cast<std::ptrdiff_t>(std::min(x + side, width));
-            if (*cell != 0 && std::any_of(from, to, [](std::uint8_t one) { return one != 0; }))
+            const int least = (*cell & kHairy) != 0 ? 1 : 0;
+            if (*cell != 0 && std::any_of(from, to, [&](std::uint8_t one) { return one > least; }))
                 *cell |= kSampled;
         }
     }

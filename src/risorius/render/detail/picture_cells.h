@@ -52,6 +52,8 @@ class PictureCells {
 
     /// Records that skin of the skin layer lies in the box.
     void touch(const ClipBox& box) { add(box, kTouched); }
+    /// The same of hair, where only larger steps in distance need samples.
+    void touch_hair(const ClipBox& box) { add(box, kTouched | kHairy); }
     /// Records that something in the box must be drawn in samples.
     void mark(const ClipBox& box) { add(box, kTouched | kSampled); }
     void mark_all() { std::fill(cells_.begin(), cells_.end(), kTouched | kSampled); }
@@ -59,7 +61,8 @@ class PictureCells {
     /// Bounding box of all touched cells.
     PixelBox touched() const;
 
-    /// Marks the touched cells that need samples: all but those that skin covers completely and without a step in distance.
+    /// Marks the touched cells that need samples: all but those that skin covers completely and without a step in distance. Locks of
+    /// hair lie some millimetres over each other, and their texture hides the edges between them.
     /// `rgba`: the skin layer, `shaded` x `shaded` places per pixel, rows from the bottom, with the distance in alpha (see
     /// shader_lookup.cpp).
     void find_steps(const std::vector<std::uint8_t>& rgba, int shaded);
@@ -76,7 +79,7 @@ class PictureCells {
     int rows() const { return rows_; }
 
   private:
-    static constexpr std::uint8_t kTouched = 1, kSampled = 2;
+    static constexpr std::uint8_t kTouched = 1, kSampled = 2, kHairy = 4;
     struct Range {
         int from_column, to_column, from_row, to_row;
     };

@@ -77,11 +77,24 @@ void main() {
 }
 )";
 
+// What the layer is told of hair is farther by half a turn, so that hair never seems to lie on the skin: locks that lie on each other
+// then need samples only at larger steps.
+constexpr const char* kHairAway = R"(
+float told() {
+    return max(fract((distance(camera.xyz, position) + kHairBeyond) * kTurnsPerMetre) * (256.0 / 255.0), 1.0 / 255.0);
+}
+)";
+std::string told_of_hair(bool layer) {
+    if (!layer) return told_chunk(false);
+    return turns_chunk() + "const float kHairBeyond = " + std::to_string(kHairBeyond_m) + ";\n" +
+           kHairAway;
+}
+
 }  // namespace
 
 std::string lock_vertex_shader() { return frame_chunk() + lights_chunk() + kLockVertex; }
 std::string lock_shader(bool layer) {
-    return frame_chunk() + lights_chunk() + "in vec3 position;\n" + told_chunk(layer) +
+    return frame_chunk() + lights_chunk() + "in vec3 position;\n" + told_of_hair(layer) +
            kLockFragment;
 }
 

@@ -7,9 +7,10 @@ namespace {
 
 constexpr const char* kLookupVertex = R"(
 layout(location = 0) in vec3 in_position;
+uniform float beyond;  // m that are added to the distance, see shader_lock.cpp
 out float away;       // m from the camera
 void main() {
-    away = distance(camera.xyz, in_position);
+    away = distance(camera.xyz, in_position) + beyond;
     gl_Position = clip_from_world * vec4(in_position, 1.0);
 }
 )";

@@ -98,6 +98,8 @@ std::string eye_texture_shader();
 std::string teeth_texture_shader();
 std::string mucosa_texture_shader(bool tongue);
 std::string lash_shader();
+/// What is added to the distance of hair from the camera in the skin layer, m: half of what its distances wrap around at.
+constexpr double kHairBeyond_m = 0.128;
 std::string lock_vertex_shader();
 std::string lock_shader(bool layer);  ///< `layer`: to be stored and looked up as skin is
 std::string garment_vertex_shader();

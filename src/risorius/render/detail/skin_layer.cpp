@@ -127,10 +127,11 @@ const std::vector<std::uint8_t>& SkinLayer::read(const PixelBox& box) {
     return rgba_;
 }
 
-void SkinLayer::use() const {
+void SkinLayer::use(double beyond_m) const {
     glActiveTexture(GL_TEXTURE0 + kSkinLayerUnit);
     glBindTexture(GL_TEXTURE_2D, bytes_);
     program_.use();
+    glUniform1f(program_.location("beyond"), static_cast<float>(beyond_m));
 }
 
 }  // namespace risorius::render

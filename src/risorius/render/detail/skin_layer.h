@@ -38,8 +38,9 @@ class SkinLayer {
 
     /// Binds the layer as the framebuffer, so that the skin can be shaded into it, and clears a part of the given size.
     void begin(int width_px, int height_px);
-    /// Uses the program that copies shaded skin into the bound framebuffer of bytes.
-    void use() const;
+    /// Uses the program that copies shaded skin into the bound framebuffer of bytes. `beyond_m`: what was added to the distances of
+    /// what is drawn next.
+    void use(double beyond_m = 0) const;
 
     /// Returns the largest depth of the skin in each cell within the box; outside the box, skin counts as missing. Waits until
     /// the layer has been drawn.

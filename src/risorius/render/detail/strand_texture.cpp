@@ -3,17 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
-#include <vector>
 
 #include "risorius/core/counter_rng.h"
 #include "risorius/render/detail/gl_context.h"
 
 namespace risorius::render {
 
-GLuint make_strand_texture(unsigned seed, double white_share) {
-    constexpr int kAcross = 256, kAlong = 256, kStrands = 900;
+std::vector<std::uint8_t> strand_texels(unsigned seed, double white_share) {
+    constexpr int kAcross = kStrandSide, kAlong = kStrandSide, kStrands = 900;
     constexpr auto kCount = static_cast<std::size_t>(kAcross) * kAlong;
     // Bundles of some millimetres with gaps between them, and single strands over them, each a little aslant and with ends
     std::vector<float> bright(kCount, 0.0F), white(kCount, 0.0F);
@@ -62,7 +60,11 @@ GLuint make_strand_texture(unsigned seed, double white_share) {
         texels[2 * k + 1] =
             static_cast<std::uint8_t>(std::lround(255 * std::clamp(mixed, 0.0F, 1.0F)));
     }
-    return make_repeating_texture(kAcross, kAlong, texels);
+    return texels;
+}
+
+GLuint make_strand_texture(unsigned seed, double white_share) {
+    return make_repeating_texture(kStrandSide, kStrandSide, strand_texels(seed, white_share));
 }
 
 }  // namespace risorius::render

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/render/detail/worn_layer.h"
 
+#include "risorius/render/detail/shaders.h"
 #include "risorius/render/detail/skin_plan.h"
 
 namespace risorius::render {
@@ -34,9 +35,12 @@ void WornLayer::touch(const Eigen::Matrix4f& clip_from_world, PictureCells& cell
     garment_.touch(clip_from_world, cells);
 }
 
-void WornLayer::look_up(const PictureCells& cells) {
+void WornLayer::look_up_hair(const PictureCells& cells, const SkinLayer& layer) {
+    if (locks_.empty()) return;
+    layer.use(kHairBeyond_m);
     locks_.look_up(cells);
-    garment_.look_up(cells);
 }
+
+void WornLayer::look_up_garment(const PictureCells& cells) { garment_.look_up(cells); }
 
 }  // namespace risorius::render

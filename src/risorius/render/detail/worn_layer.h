@@ -5,6 +5,7 @@
 
 #include "risorius/render/detail/garment_layer.h"
 #include "risorius/render/detail/lock_layer.h"
+#include "risorius/render/detail/skin_layer.h"
 
 namespace risorius::render {
 
@@ -21,7 +22,10 @@ class WornLayer {
     /// The functions of the layers of the same names, for both.
     void draw() const;
     void touch(const Eigen::Matrix4f& clip_from_world, PictureCells& cells);
-    void look_up(const PictureCells& cells);
+    /// Hair is looked up before the skin, which is then not looked up where it is hidden; the program of the layer has to be used anew
+    /// then. The garment is looked up by the program that is in use.
+    void look_up_hair(const PictureCells& cells, const SkinLayer& layer);
+    void look_up_garment(const PictureCells& cells);
     const LockLayer& locks() const { return locks_; }  ///< what throws shadow
 
   private:
