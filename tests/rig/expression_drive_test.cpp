@@ -75,7 +75,7 @@ TEST(ExpansionAt, SidesOfShapesAddUpToTheShape) {
 TEST(ExpansionAt, KnowsNoOtherNamesAndNoSidesOfWhatHasNone) {
     EXPECT_FALSE(expansion_at(rig(), "AU99", 1));
     EXPECT_FALSE(expansion_at(rig(), "AU26.l", 1));
-    EXPECT_FALSE(expansion_at(rig(), "procerus.l", 1));
+    EXPECT_FALSE(expansion_at(rig(), "orbicularis_oris_upper_marginal.l", 1));
     EXPECT_FALSE(expansion_at(rig(), "smiling", 1));
 }
 
