@@ -181,6 +181,9 @@ TEST_F(MeasuredShapes, ANameThatNothingKnowsIsRefused) {
         "you mean \"jawOpen\"?), or its activations under \"excitations\", found \"jawOpne\"");
     EXPECT_EQ(complaint(json({"jawOpen", "jawOpen"})),
               "x.json:/names/1: expected each name once, found \"jawOpen\"");
+    EXPECT_EQ(complaint(json({"gaze_yaw_deg"})),
+              "x.json:/names/0: expected an ARKit shape, action unit or expression of the rig, or "
+              "its activations under \"excitations\", found \"gaze_yaw_deg\"");
 }
 
 TEST_F(MeasuredShapes, MistakenExcitationsAreRefused) {

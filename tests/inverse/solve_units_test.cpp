@@ -33,7 +33,7 @@ const fs::path kSmiling = fs::path(RISORIUS_SOURCE_DIR) / "rigs/adult/rig.json";
 track::Drive smile_at(const scene::RigFiles& files, double share) {
     track::Expansion sum = track::Expansion::none(files.rig.channels());
     for (const auto& [unit, height] : {std::pair{"AU6", 0.54}, {"AU12", 0.72}})
-        sum.add(rig::expansion_named(files.rig, unit).value(), files.rig.facs.find(unit)->curve,
+        sum.add(rig::expansion_at(files.rig, unit, 1).value(), files.rig.facs.find(unit)->curve,
                 height * share);
     return rig::clamped_drive(sum, files.rig.channels());
 }

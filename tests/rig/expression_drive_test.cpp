@@ -17,7 +17,7 @@ Eigen::VectorXd excitation_at(const std::string& name, double intensity) {
 
 TEST(ExpansionAt, AUnitFollowsItsCurve) {
     const track::ActionUnit& unit = *rig().facs.find("AU12");
-    const Eigen::VectorXd whole = expansion_named(rig(), "AU12").value().excitation;
+    const Eigen::VectorXd whole = expansion_at(rig(), "AU12", 1).value().excitation;
     ASSERT_GT(whole.maxCoeff(), 0);
     for (const double intensity : {0.25, 0.5, 0.8, 1.0})
         EXPECT_TRUE(excitation_at("AU12", intensity)
@@ -51,16 +51,31 @@ TEST(ExpansionAt, MusclesShapesAndChannelsAreProportional) {
     EXPECT_TRUE(excitation_at("zygomaticus_major.l", 0.3)
                     .isApprox(0.3 * excitation_at("zygomaticus_major.l", 1)));
     EXPECT_TRUE(excitation_at("mouthSmileLeft", 0.3)
-                    .isApprox(0.3 * expansion_named(rig(), "mouthSmileLeft").value().excitation));
+                    .isApprox(0.3 * expansion_at(rig(), "mouthSmileLeft", 1).value().excitation));
     const track::Expansion open = expansion_at(rig(), "jaw_open", 0.4).value();
     EXPECT_EQ(open.kinematic[static_cast<std::size_t>(track::kinematic_named("jaw_open").front())],
               0.4);
     EXPECT_EQ(open.excitation.cwiseAbs().maxCoeff(), 0);
 }
 
+TEST(ExpansionAt, UnitsWhoseNameEndsWithASideAreFound) {
+    const track::Expansion left = expansion_at(rig(), "AU30.l", 1).value();
+    EXPECT_NE(left.kinematic[static_cast<std::size_t>(track::kinematic_named("jaw_side").front())],
+              0);
+}
+
+// The tables have "cheekPuff" as a whole, and "mouthSmileLeft" and "mouthSmileRight".
+TEST(ExpansionAt, SidesOfShapesAddUpToTheShape) {
+    EXPECT_TRUE((excitation_at("cheekPuff_L", 1) + excitation_at("cheekPuff_R", 1))
+                    .isApprox(excitation_at("cheekPuff", 1)));
+    EXPECT_TRUE((excitation_at("mouthSmile_L", 1) + excitation_at("mouthSmileRight", 1))
+                    .isApprox(excitation_at("mouthSmile", 1)));
+}
+
 TEST(ExpansionAt, KnowsNoOtherNamesAndNoSidesOfWhatHasNone) {
     EXPECT_FALSE(expansion_at(rig(), "AU99", 1));
     EXPECT_FALSE(expansion_at(rig(), "AU26.l", 1));
+    EXPECT_FALSE(expansion_at(rig(), "orbicularis_oris_upper_marginal.l", 1));
     EXPECT_FALSE(expansion_at(rig(), "smiling", 1));
 }
 

@@ -159,6 +159,14 @@ TEST_F(Studies, SayWhatElseIsWrong) {
     EXPECT_EQ(complaint(R"({"poses": ["AU121"]})"),
               "study.json:/poses/0: expected an expression, action unit, shape or muscle of the "
               "rig, found \"AU121\"");
+    // No side of what has none, and no channel without its value
+    for (const char* name :
+         {"AU26.l", "orbicularis_oris_upper_marginal.l", "jaw_open", "gaze_yaw_deg"})
+        EXPECT_EQ(
+            complaint(R"({"poses": [")" + std::string(name) + R"("]})"),
+            "study.json:/poses/0: expected an expression, action unit, shape or muscle of the "
+            "rig, found \"" +
+                std::string(name) + "\"");
     EXPECT_EQ(
         complaint(R"({"poses": [{"name": "x", "activation": {"risorus": 1}}]})"),
         "study.json:/poses/0/activation/risorus: expected a muscle or channel of the rig (did "

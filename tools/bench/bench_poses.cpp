@@ -18,7 +18,7 @@ namespace {
 constexpr double kCloser = 100;
 
 track::Drive drive_of(const scene::RigFiles& files, const std::string& unit) {
-    const auto expansion = rig::expansion_named(files.rig, unit);
+    const auto expansion = rig::expansion_at(files.rig, unit, 1);
     if (!expansion) throw Error(files.place(), "a unit of its tables", "\"" + unit + "\"");
     return rig::clamped_drive(*expansion, files.rig.channels());
 }

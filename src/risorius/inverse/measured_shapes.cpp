@@ -129,7 +129,9 @@ class Drives {
                 for (const std::string& source : given->keys()) add(*given, source, out);
                 return out;
             }
-        if (const auto known = rig::expansion_named(rig_, name)) return *known;
+        // A channel has no value of its own: "excitations" must give it
+        if (track::kinematic_named(name).empty())
+            if (const auto known = rig::expansion_at(rig_, name, 1)) return *known;
         std::vector<std::string> known;
         for (const track::ArkitShape& shape : rig_.facs.arkit) known.push_back(shape.name);
         for (const JsonCursor& one : json_.at("names").items())

@@ -24,6 +24,23 @@ track::Expansion one_side(track::Expansion whole, Side side, const track::Channe
     return whole;
 }
 
+// A shape of ARKit, one side of it, or both of its sides.
+std::optional<track::Expansion> shape_named(const rig::RigDescription& rig, const std::string& name,
+                                            const track::ChannelTable& channels) {
+    const SidedShape shape = split_shape(name);
+    track::Expansion out = track::Expansion::none(channels);
+    const auto add = [&](const std::string& arkit) {
+        const track::ArkitShape* found = rig.facs.find_arkit(arkit);
+        if (found) out.add(track::expand(*found, rig.facs, channels), 1.0);
+        return found != nullptr;
+    };
+    if (add(name)) return out;
+    if (shape.side && add(shape.base + (*shape.side == Side::kLeft ? "Left" : "Right"))) return out;
+    if (shape.side && add(shape.base)) return one_side(out, *shape.side, channels);
+    if (add(name + "Left") && add(name + "Right")) return out;
+    return std::nullopt;
+}
+
 }  // namespace
 
 SidedShape split_shape(const std::string& name) {
@@ -74,51 +91,10 @@ std::optional<track::Expansion> expansion_at(const rig::RigDescription& rig,
                 intensity);
         return out;
     }
-    std::optional<track::Expansion> found = expansion_named(rig, name);
-    if (found) {
-        out.add(*found, intensity);
-        found = out;
-    }
-    return found;
-}
-
-std::optional<track::Expansion> expansion_named(const rig::RigDescription& rig,
-                                                const std::string& name) {
-    const track::ChannelTable channels = rig.channels();
-    track::Expansion out = track::Expansion::none(channels);
-    const SidedShape shape = split_shape(name);
-    const auto add_arkit = [&](const std::string& arkit) {
-        const track::ArkitShape* found = rig.facs.find_arkit(arkit);
-        if (found) out.add(track::expand(*found, rig.facs, channels), 1.0);
-        return found != nullptr;
-    };
-    if (add_arkit(name)) return out;
-    if (shape.side && add_arkit(shape.base + (*shape.side == Side::kLeft ? "Left" : "Right")))
-        return out;
-    if (shape.side && add_arkit(shape.base)) return one_side(out, *shape.side, channels);
-    if (add_arkit(name + "Left") && add_arkit(name + "Right")) return out;
-    const track::SidedName unit = track::split_side(name);
-    if (const track::ActionUnit* found = rig.facs.find(unit.id)) {
-        out.add(track::expand(*found, unit.side, channels), 1.0);
-        return out;
-    }
-    if (const track::Expression* found = rig.expressions.find(name)) {
-        for (const track::ExpressionUnit& part : found->parts.units) {
-            const track::ActionUnit& found_unit = *rig.facs.find(part.use.unit);
-            out.add(track::expand(found_unit, part.use.side, channels), found_unit.curve,
-                    part.use.value);
-        }
-        for (const track::MuscleFraction& muscle : found->parts.muscles)
-            out.add(track::expand(muscle, channels), 1.0);
-        return out;
-    }
-    if (channels.find(unit.id)) {
-        for (const Side side : {Side::kLeft, Side::kRight})
-            if (!unit.side || *unit.side == side)
-                out.excitation[channels.column(unit.id, side)] = 1;
-        return out;
-    }
-    return std::nullopt;
+    std::optional<track::Expansion> shape = shape_named(rig, name, channels);
+    if (!shape) return std::nullopt;
+    out.add(*shape, intensity);
+    return out;
 }
 
 track::Drive clamped_drive(const track::Expansion& sum, const track::ChannelTable& channels) {

@@ -23,16 +23,11 @@ struct SidedShape {
 SidedShape split_shape(const std::string& name);
 
 /// Returns what an action unit, expression, ARKit shape, muscle or kinematic channel adds to the drive at an intensity, as in a script: units
-/// follow their curves, so that half of the intensity shows half of the motion, which may take a fifth of the excitation. Returns nothing when
-/// the rig does not have the name, or has it without the side.
+/// follow their curves, so that half of the intensity shows half of the motion, which may take a fifth of the excitation. If the tables have a
+/// shape only as a whole, one side of it has the muscles of that side, and half of everything without a side. Returns nothing when the rig does
+/// not have the name, or has it without the side.
 std::optional<track::Expansion> expansion_at(const rig::RigDescription& rig,
                                              const std::string& name, double intensity);
-
-/// Returns what the expression `name` adds to the drive at full intensity; nothing when the rig's tables do not have the name. If the tables have
-/// only the whole expression and one side is requested, the result has the muscles of that side, and half of everything without a
-/// side.
-std::optional<track::Expansion> expansion_named(const rig::RigDescription& rig,
-                                                const std::string& name);
 
 /// Returns the drive of an expansion, with every muscle and channel clamped to its range.
 track::Drive clamped_drive(const track::Expansion& sum, const track::ChannelTable& channels);

@@ -21,7 +21,7 @@ LandmarkDisplacements::LandmarkDisplacements(face::Face& face, const rig::RigDes
 }
 
 track::Drive LandmarkDisplacements::drive(const std::string& expression) const {
-    const auto expansion = rig::expansion_named(rig_, expression);
+    const auto expansion = rig::expansion_at(rig_, expression, 1);
     if (!expansion) throw Error(place_, "an expression of its tables", "\"" + expression + "\"");
     return rig::clamped_drive(*expansion, rig_.channels());
 }

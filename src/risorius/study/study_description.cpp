@@ -127,8 +127,9 @@ std::vector<Pose> read_poses(const JsonCursor& json, const rig::RigDescription& 
         Pose pose;
         if (item.is_string()) {
             pose.name = item.string();
-            const auto expansion = rig::expansion_named(rig, pose.name);
-            if (!expansion)
+            const auto expansion = rig::expansion_at(rig, pose.name, 1);
+            // 1 of a channel may be a degree or a pascal: its value must be given
+            if (!expansion || !track::kinematic_named(pose.name).empty())
                 item.fail("an expression, action unit, shape or muscle of the rig",
                           in_quotes(pose.name));
             pose.drive = rig::clamped_drive(*expansion, channels);

@@ -226,7 +226,7 @@ class Fitter {
     Asked pursed(int i) const {
         Asked out = none();
         const auto unit = [&](const char* name, double share) {
-            if (const auto expansion = rig::expansion_named(rig_, name))
+            if (const auto expansion = rig::expansion_at(rig_, name, 1))
                 out.activation += share * expansion->excitation.cwiseMax(0.0);
         };
         unit("AU18", 0.4 + 0.6 * random(3000 + i, 0));
