@@ -42,13 +42,14 @@ struct Patch {
                             .held = std::vector<char>(count, 0)});
     }
     // Lines along y in the first slot.
-    Wrinkles wrinkles(double wavelength_m, double stay = 0) const {
+    Wrinkles wrinkles(double wavelength_m, double stay = 0, double later = 0) const {
         WrinkleLines lines{Points::Zero(rest.rows(), 3), Points::Zero(rest.rows(), 3),
                            Points::Zero(rest.rows(), 3)};
         lines.phase.col(0) = rest.col(0) / wavelength_m;
         lines.window.col(0).setOnes();
         lines.wavelength.col(0).setConstant(wavelength_m);
         if (stay > 0) lines.at_rest = Points::Constant(rest.rows(), 3, stay);
+        if (later > 0) lines.later = Points::Constant(rest.rows(), 3, later);
         return Wrinkles(lines, triangles, rest, {.strength = 1.0, .mean_over_m = 2e-3});
     }
 };
@@ -125,6 +126,18 @@ TEST(SkinSurface, LeavesWhatIsHeldAndItsBorder) {
     EXPECT_EQ(at.row(held), carried.row(held));
     EXPECT_EQ(at.row(node(0, 7)), carried.row(node(0, 7)));
     EXPECT_GT((at - carried).rowwise().norm().maxCoeff(), 1e-4);
+}
+
+TEST(Wrinkles, LinesThatBeginLaterFoldAsMuchLess) {
+    const Patch patch(1e-3);
+    const auto deepest = [&](double shortening, double later) {
+        const Points at = stretched(patch.rest, 1 - shortening, 1);
+        return fold(patch.wrinkles(2e-3, 0, later), at).depth.col(0).maxCoeff();
+    };
+    EXPECT_GT(deepest(0.1, 0), 0);
+    EXPECT_EQ(deepest(0.1, 0.1), 0);
+    EXPECT_GT(deepest(0.2, 0.1), 0);
+    EXPECT_LT(deepest(0.2, 0.1), deepest(0.2, 0));
 }
 
 TEST(Wrinkles, NeitherMotionNorStretchNorPullAlongTheLinesFoldsSkin) {
