@@ -282,10 +282,12 @@ void Wrinkles::fold(Points& vertices, Points& depth) const {
         double out = 0;
         for (int slot = 0; slot < kWrinkleSlots; ++slot) {
             if (window_(row, slot) == 0) continue;
-            const double c = compression_(row, slot) - later_(row, slot), stays = stays_(row, slot);
-            const double in_place = depth_m(row, slot, c);
+            const double c = compression_(row, slot), stays = stays_(row, slot);
+            const double in_place = depth_m(row, slot, c - later_(row, slot));
             depth(vertex_[i], slot) += (1 - resolved_(row, slot)) * in_place;
-            if (stays > 0) depth(vertex_[i], slot) += depth_m(row, slot, c + stays) - in_place;
+            // What is there at rest does not begin later
+            if (stays > 0)
+                depth(vertex_[i], slot) += depth_m(row, slot, c + stays) - depth_m(row, slot, c);
             if (resolved_(row, slot) > 0)
                 out += resolved_(row, slot) * in_place * fold_height(phase_(row, slot));
         }
