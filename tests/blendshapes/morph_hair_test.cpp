@@ -11,7 +11,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "paths.h"
+#include "blendshapes/adult_suite.h"
 #include "risorius/blendshapes/detail/morph_head.h"
 #include "risorius/face/surfaces.h"
 #include "risorius/io/coarser_model.h"
@@ -22,19 +22,15 @@ namespace risorius::blendshapes {
 namespace {
 
 /// The adult without hair, built once; each test adds hair to a copy.
-class MorphHair : public testing::Test {
+class MorphHair : public AdultSuite {
   protected:
     static void SetUpTestSuite() {
-        files_ = std::make_unique<scene::RigFiles>(scene::read_rig_files(
-            std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs/adult/rig.json"));
-        face_ = std::make_unique<face::Face>(files_->rig, files_->mesh,
-                                             face::quality_named("preview"), files_->place());
+        AdultSuite::SetUpTestSuite();
         bald_ = std::make_unique<io::MorphModel>(morph_head(*files_, *face_, 0, EyesBy::kBoth));
     }
     static void TearDownTestSuite() {
         bald_.reset();
-        face_.reset();
-        files_.reset();
+        AdultSuite::TearDownTestSuite();
     }
     static io::MorphModel with_hair(const std::string& style, io::MorphModel model) {
         scene::RigFiles files = *files_;
@@ -43,22 +39,13 @@ class MorphHair : public testing::Test {
         return model;
     }
     static io::MorphModel with_hair(const std::string& style) { return with_hair(style, *bald_); }
-    static int node(const io::MorphModel& model, const std::string& name) {
-        for (std::size_t n = 0; n < model.nodes.size(); ++n)
-            if (model.nodes[n].name == name) return static_cast<int>(n);
-        return -1;
-    }
     static Json json_of(const std::string& glb) {
         std::uint32_t length = 0;
         std::memcpy(&length, glb.data() + 12, sizeof length);
         return Json::parse(glb.substr(20, length));
     }
-    static std::unique_ptr<scene::RigFiles> files_;
-    static std::unique_ptr<face::Face> face_;
     static std::unique_ptr<io::MorphModel> bald_;
 };
-std::unique_ptr<scene::RigFiles> MorphHair::files_;
-std::unique_ptr<face::Face> MorphHair::face_;
 std::unique_ptr<io::MorphModel> MorphHair::bald_;
 
 TEST_F(MorphHair, EveryStyleIsANodeBelowTheHeadWithItsCards) {
@@ -70,7 +57,7 @@ TEST_F(MorphHair, EveryStyleIsANodeBelowTheHeadWithItsCards) {
     };
     for (const std::string& style : render::hair_style_names()) {
         const io::MorphModel model = with_hair(style);
-        const int hair = node(model, "Hair");
+        const int hair = node_of(model, "Hair");
         if (style == "shaven") {
             EXPECT_EQ(hair, -1);
             EXPECT_EQ(io::glb_bytes(model), io::glb_bytes(*bald_));
@@ -78,7 +65,7 @@ TEST_F(MorphHair, EveryStyleIsANodeBelowTheHeadWithItsCards) {
         }
         ASSERT_GE(hair, 0) << style;
         const io::MorphNode& shown = model.nodes[static_cast<std::size_t>(hair)];
-        EXPECT_EQ(shown.parent, node(model, "Head")) << style;
+        EXPECT_EQ(shown.parent, node_of(model, "Head")) << style;
         std::map<std::string, long> triangles;
         for (const io::MorphPart& part : model.parts)
             if (part.node == hair) triangles[part.name] = part.triangles.rows();
@@ -168,7 +155,7 @@ TEST_F(MorphHair, TheJointTurnsItWithTheScalp) {
     const io::MorphModel model = with_hair("afro");
     Rigid head = Rigid::Identity();
     for (const io::NodeMotion& motion : node_motions(model, *face_, {rest, turned}))
-        if (motion.node == node(model, "Head")) {
+        if (motion.node == node_of(model, "Head")) {
             const Vec3 pivot = model.nodes[static_cast<std::size_t>(motion.node)].place;
             head = Eigen::Translation3d(pivot + motion.shift[1]) * motion.turn[1] *
                    Eigen::Translation3d(-pivot);

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "blendshapes/adult_suite.h"
 #include "message_of.h"
-#include "paths.h"
 #include "risorius/blendshapes/detail/mouth_shade.h"
 #include "risorius/face/surfaces.h"
 
@@ -20,36 +20,24 @@ namespace risorius::blendshapes {
 namespace {
 
 /// The adult, built once for all tests of the suite.
-class MorphHead : public testing::Test {
+class MorphHead : public AdultSuite {
   protected:
     static void SetUpTestSuite() {
-        files_ = std::make_unique<scene::RigFiles>(scene::read_rig_files(
-            std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs/adult/rig.json"));
-        face_ = std::make_unique<face::Face>(files_->rig, files_->mesh,
-                                             face::quality_named("preview"), files_->place());
+        AdultSuite::SetUpTestSuite();
         model_ = std::make_unique<io::MorphModel>(morph_head(*files_, *face_, 256, EyesBy::kBoth));
     }
     static void TearDownTestSuite() {
         model_.reset();
-        face_.reset();
-        files_.reset();
+        AdultSuite::TearDownTestSuite();
     }
-    static int node(const std::string& name) {
-        for (std::size_t n = 0; n < model_->nodes.size(); ++n)
-            if (model_->nodes[n].name == name) return static_cast<int>(n);
-        return -1;
-    }
+    static int node(const std::string& name) { return node_of(*model_, name); }
     static track::Drive drive() {
         track::Drive out;
         out.excitation = Eigen::VectorXd::Zero(face_->activation().size());
         return out;
     }
-    static std::unique_ptr<scene::RigFiles> files_;
-    static std::unique_ptr<face::Face> face_;
     static std::unique_ptr<io::MorphModel> model_;
 };
-std::unique_ptr<scene::RigFiles> MorphHead::files_;
-std::unique_ptr<face::Face> MorphHead::face_;
 std::unique_ptr<io::MorphModel> MorphHead::model_;
 
 double& at(track::Drive& drive, track::Kinematic channel) {

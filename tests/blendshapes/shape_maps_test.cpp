@@ -8,7 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "paths.h"
+#include "blendshapes/adult_suite.h"
 #include "risorius/media/image_file.h"
 #include "temporary_folder.h"
 
@@ -17,19 +17,8 @@ namespace {
 
 constexpr int kSide_px = 512;
 
-class ShapeMapsOfAdult : public testing::Test {
+class ShapeMapsOfAdult : public AdultSuite {
   protected:
-    static void SetUpTestSuite() {
-        files_ = std::make_unique<scene::RigFiles>(scene::read_rig_files(
-            std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs/adult/rig.json"));
-        face_ = std::make_unique<face::Face>(files_->rig, files_->mesh,
-                                             face::quality_named("preview"), files_->place());
-    }
-    static void TearDownTestSuite() {
-        face_.reset();
-        files_.reset();
-    }
-
     /// A shape that scales the head by a factor along an axis.
     static MadeShape scaled(const std::string& name, long axis, double factor) {
         MadeShape out;
@@ -70,12 +59,7 @@ class ShapeMapsOfAdult : public testing::Test {
         for (const Vec3& one : pixels) sum += (one - from).cwiseAbs2();
         return (sum / static_cast<double>(pixels.size())).cwiseSqrt();
     }
-
-    static std::unique_ptr<scene::RigFiles> files_;
-    static std::unique_ptr<face::Face> face_;
 };
-std::unique_ptr<scene::RigFiles> ShapeMapsOfAdult::files_;
-std::unique_ptr<face::Face> ShapeMapsOfAdult::face_;
 
 TEST_F(ShapeMapsOfAdult, AreTheStrainAndTheWrinklesOfEachShape) {
     MadeShapes shapes;

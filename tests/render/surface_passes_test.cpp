@@ -48,12 +48,16 @@ Scene square_scene() {
 
 std::size_t pixel_at(int x, int y) { return static_cast<std::size_t>(y * kPictureWidth + x); }
 
-TEST(SurfacePasses, BrowsAndTheScalpBeyondTheHairlineArePartsOfTheirOwn) {
-    RoundHead head;
-    auto& marks = head.scene.landmarks;
+void mark_hairline(std::map<std::string, Vec3>& marks) {
     marks["tr"] = RoundHead::on_skin(0, 0.06);
     marks["fht_l"] = RoundHead::on_skin(0.05, 0.04);
     marks["fht_r"] = RoundHead::on_skin(-0.05, 0.04);
+}
+
+TEST(SurfacePasses, BrowsAndTheScalpBeyondTheHairlineArePartsOfTheirOwn) {
+    RoundHead head;
+    auto& marks = head.scene.landmarks;
+    mark_hairline(marks);
     for (const int side : {1, -1}) {
         const std::string s = side > 0 ? "_l" : "_r";
         double x = 0.012;
@@ -80,9 +84,7 @@ TEST(SurfacePasses, BrowsAndTheScalpBeyondTheHairlineArePartsOfTheirOwn) {
 TEST(SurfacePasses, LocksOfHairAreHairAndHideWhatLiesBehindThem) {
     RoundHead head;
     auto& marks = head.scene.landmarks;
-    marks["tr"] = RoundHead::on_skin(0, 0.06);
-    marks["fht_l"] = RoundHead::on_skin(0.05, 0.04);
-    marks["fht_r"] = RoundHead::on_skin(-0.05, 0.04);
+    mark_hairline(marks);
     marks["op"] = Vec3(0, 0.02, -0.098);
     marks["go_l"] = RoundHead::on_skin(0.06, -0.06);
     marks["bm_l"] = RoundHead::on_skin(0.02, 0.02);

@@ -50,10 +50,8 @@ class ShapesOfGltf {
         const std::vector<JsonCursor> primitives = mesh.at("primitives").items();
         from_.spend(mesh, names.size() + primitives.size());
         // What is worn is no part of the mesh.
-        const bool is_worn = std::none_of(
-            primitives.begin(), primitives.end(),
-            [](const JsonCursor& primitive) { return primitive.at("attributes").has("_VERTEX"); });
-        if (out_.by_risorius && numbered_ && !out_.vertex.empty() && is_worn) return;
+        if (out_.by_risorius && numbered_ && !out_.vertex.empty() && detail::is_worn(primitives))
+            return;
         for (const JsonCursor& primitive : primitives) add_primitive(primitive, names, place);
     }
 

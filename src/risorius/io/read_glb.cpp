@@ -134,13 +134,6 @@ void add_primitive(const GltfFile& from, const JsonCursor& primitive, const Eige
     }
 }
 
-// Whether a mesh is worn on the head that others are: none of its primitives has numbers of vertices.
-bool is_worn(const std::vector<JsonCursor>& primitives) {
-    return std::none_of(primitives.begin(), primitives.end(), [](const JsonCursor& primitive) {
-        return primitive.at("attributes").has("_VERTEX");
-    });
-}
-
 // The names of a mesh's targets.
 std::vector<std::string> names_of_targets(const JsonCursor& mesh) {
     std::vector<std::string> names;
@@ -176,7 +169,7 @@ MorphModel read_model(const std::filesystem::path& file) {
         const std::vector<std::string> names = names_of_targets(placed.mesh);
         const std::vector<JsonCursor> primitives = placed.mesh.at("primitives").items();
         from.spend(placed.mesh, names.size() + primitives.size());
-        if (!out.parts.empty() && is_worn(primitives)) continue;
+        if (!out.parts.empty() && detail::is_worn(primitives)) continue;
         for (const std::string& name : names) {
             const auto known = index.find(name);
             if (known == index.end())

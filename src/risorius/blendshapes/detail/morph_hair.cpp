@@ -2,9 +2,9 @@
 #include "risorius/blendshapes/detail/morph_hair.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
+#include "risorius/core/srgb.h"
 #include "risorius/media/image_file.h"
 #include "risorius/render/hair_cards.h"
 #include "risorius/scene/scene_from_rig.h"
@@ -15,10 +15,6 @@ namespace {
 
 // A shape of which no card moves farther than the first has none of the hair, and of the others what moves less is left out: m.
 constexpr double kHairRests_m = 0.3e-3, kCardRests_m = 0.1e-3;
-
-double srgb_of_linear(double value) {
-    return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
-}
 
 io::MorphPart part_of_hair(const char* name, const Triangles& triangles, int first,
                            double roughness, const render::HairCards& hair) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/io/detail/gltf_nodes.h"
 
+#include <algorithm>
+
 #include "risorius/core/error.h"
 #include "risorius/io/detail/gltf_mesh.h"
 
@@ -65,6 +67,12 @@ std::vector<PlacedMesh> placed_meshes(const GltfFile& from) {
                  skin ? place_of_skin(from, from.item("skins", *skin), places) : places[n]});
         }
     return out;
+}
+
+bool is_worn(const std::vector<JsonCursor>& primitives) {
+    return std::none_of(primitives.begin(), primitives.end(), [](const JsonCursor& primitive) {
+        return primitive.at("attributes").has("_VERTEX");
+    });
 }
 
 }  // namespace risorius::io::detail

@@ -21,4 +21,7 @@ struct PlacedMesh {
 /// In the order of the nodes. Throws Error for a node inside of itself.
 std::vector<PlacedMesh> placed_meshes(const GltfFile& from);
 
+/// Whether a mesh is worn on the head that others are: none of its primitives has numbers of vertices.
+bool is_worn(const std::vector<JsonCursor>& primitives);
+
 }  // namespace risorius::io::detail
