@@ -2,6 +2,7 @@
 // Calibrates the standard anatomy on measured expressions of one head. This tool is for authors of the tables, not for their
 // users.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <set>
@@ -77,7 +78,7 @@ int main(int argc, char** argv) {
     CLI::App app("Calibrates the standard anatomy on measured expressions.", "calibrate");
     std::filesystem::path rig_file, shapes_file, standard, goals;
     std::vector<std::filesystem::path> also;
-    std::vector<std::string> only;
+    std::vector<std::string> only, free;
     calibrate::Options options;
     double min = 0.05;
     bool shapes_too = false, ways_only = false, unit_gains = false;
@@ -85,6 +86,10 @@ int main(int argc, char** argv) {
         ->required();
     app.add_option("--shapes", shapes_file, "Measured displacements");
     app.add_option("--only", only, "Expressions to calibrate on")->delimiter(',');
+    app.add_option("--free", free,
+                   "Only parameters whose names begin with one of these may change, such as "
+                   "slide,lift for the attachments. Default: all")
+        ->delimiter(',');
     app.add_option("--standard", standard, "Folder of tables to write into");
     app.add_option("--unit-goals", goals,
                    "Instead of --shapes: goals of action units for landmarks, see unit_weights.h. "
@@ -124,8 +129,12 @@ int main(int argc, char** argv) {
         const rig::Head head = rig::place_head(files.rig, files.mesh, files.place());
         const std::vector<inverse::MeasuredShape> shapes =
             inverse::read_measured_shapes(shapes_file, {.only = only}, files.rig, head);
-        const std::vector<calibrate::Parameter> parameters =
-            calibrate::anatomy_parameters(files.rig);
+        std::vector<calibrate::Parameter> parameters = calibrate::anatomy_parameters(files.rig);
+        std::erase_if(parameters, [&](const calibrate::Parameter& parameter) {
+            return !free.empty() && std::none_of(free.begin(), free.end(), [&](const auto& begin) {
+                return parameter.name.starts_with(begin);
+            });
+        });
         std::printf("%zu parameters, %zu expressions\n", parameters.size(), shapes.size());
         const calibrate::Result result =
             calibrate::calibrate(files, shapes, parameters, options, [](const std::string& line) {

@@ -74,7 +74,7 @@ struct ActivationDescription {
 struct TissueDescription {
     double deep_shear_pa = 910;
     double superficial_shear_pa = 1950;
-    double bulk_pa = 22000;
+    double bulk_pa = 88000;
     double density_kg_m3 = 1000;
     double damping_s = 0.008;  ///< stiffness-proportional damping
     /// Stiffness of contact, pressure per depth: deep tissue on bone and teeth, lip on lip, lid on eyeball

@@ -34,8 +34,34 @@ TetSolid::TetSolid(const Tets& tets, const Points& rest, const Eigen::VectorXd& 
         inverse_.push_back(rest_edges.inverse());
     }
     const TetFans found = find_fans(tets_);
+    place(found);
     fill(double_, found);
     fill(single_, found);
+}
+
+void TetSolid::place(const TetFans& found) {
+    place_.resize(static_cast<std::size_t>(size()));
+    const auto add = [&](int count, const TetFan& fan) {
+        Fan kept{.nodes = count + 3, .tets = fan.tets, .node = fan.nodes};
+        for (int k = 0; k < count; ++k) kept.bulk += rest_volume_[fan.tets[k]] * bulk_[fan.tets[k]];
+        const int number = static_cast<int>(fans_.size());
+        for (int k = 0; k < count; ++k) {
+            const int tet = fan.tets[k];
+            Place& place = place_[static_cast<std::size_t>(tet)];
+            place.fan = number;
+            place.share = kept.bulk > 0 ? rest_volume_[tet] * bulk_[tet] / kept.bulk : 1.0 / count;
+            for (int corner = 0; corner < 4; ++corner) {
+                const auto in_fan =
+                    std::find(kept.node.begin(), kept.node.end(), tets_(tet, corner));
+                place.corner[corner] =
+                    number * (kFanTets + 3) + static_cast<int>(in_fan - kept.node.begin());
+            }
+        }
+        fans_.push_back(kept);
+    };
+    for (const TetFan& fan : found.fans) add(kFanTets, fan);
+    for (int tet : found.alone)
+        add(1, {{tet}, {tets_(tet, 0), tets_(tet, 1), tets_(tet, 2), tets_(tet, 3), -1, -1}});
 }
 
 template <class Real>
@@ -72,6 +98,8 @@ void TetSolid::fill(Groups<Real, kTets>& groups, const std::vector<TetFan>& fans
                 for (int j = 0; j < 3; ++j) tet.b[3 * k + j][lane] = static_cast<Real>(b(k, j));
             tet.shear[lane] = static_cast<Real>(weight * mu_[fan.tets[i]]);
             tet.bulk[lane] = static_cast<Real>(weight * bulk_[fan.tets[i]]);
+            tet.share[lane] =
+                static_cast<Real>(place_[static_cast<std::size_t>(fan.tets[i])].share);
         }
     }
 }
@@ -123,24 +151,10 @@ template <class Lane>
         for (int j = 0; j < 3; ++j) h[i][j] = dot(d0[i], b[j], d1[i], b[3 + j], d2[i], b[6 + j]);
 }
 
-// Energy of a tet, and its first Piola-Kirchhoff stress P, both times V:
-//   P = mu F C + K (J - 1 + c min(0, J - J_c)) cof F,   C = F^T F - I
-// C, cof F and J - 1 are computed from H = F - I, so that they are accurate near the rest shape.
+// How the cofactor of F and J - 1 follow from H = F - I, so that they are accurate near the rest shape:
+//   cof F = (1 + tr H) I - H^T + cof H,   J - 1 = tr H + tr cof H + det H
 template <class Real, class Lane>
-[[gnu::always_inline]] inline Lane stress_of(const Lane (&h)[3][3], const Lane& shear,
-                                             const Lane& bulk, Lane (&p)[3][3]) {
-    constexpr Real kHalf = Real(0.5);
-    constexpr Real kSpare = Real(1 - TetSolid::kCrushed), kMore = Real(TetSolid::kHardens);
-    // C = H + H^T + H^T H
-    Lane c[3][3];
-    for (int i = 0; i < 3; ++i)
-        for (int j = i; j < 3; ++j) {
-            c[i][j] = h[i][j] + h[j][i];
-            for (int k = 0; k < 3; ++k) c[i][j] = solve::fused(h[k][i], h[k][j], c[i][j]);
-        }
-
-    // cof F = (1 + tr H) I - H^T + cof H,   J - 1 = tr H + tr cof H + det H
-    Lane cof[3][3];
+[[gnu::always_inline]] inline Lane volume_change_of(const Lane (&h)[3][3], Lane (&cof)[3][3]) {
     for (int i = 0; i < 3; ++i) {
         const int m = (i + 1) % 3, n = (i + 2) % 3;
         for (int j = 0; j < 3; ++j) {
@@ -154,24 +168,43 @@ template <class Real, class Lane>
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
             cof[i][j] = i == j ? cof[i][j] + (trace - h[i][i] + Real(1)) : cof[i][j] - h[j][i];
+    return j_minus_1;
+}
+
+// Energy of a tet, and its first Piola-Kirchhoff stress P, both times V. M is the mean J of its fan.
+//   P = mu F C + K (M - 1 + c min(0, J - J_c)) cof F,   C = F^T F - I
+// On return, `cof` is P.
+template <class Real, class Lane>
+[[gnu::always_inline]] inline Lane stress_of(const Lane (&h)[3][3], const Lane& j_minus_1,
+                                             const Lane& mean_minus_1, const Lane& shear,
+                                             const Lane& bulk, Lane (&cof)[3][3]) {
+    constexpr Real kHalf = Real(0.5);
+    constexpr Real kSpare = Real(1 - TetSolid::kCrushed), kMore = Real(TetSolid::kHardens);
+    // C = H + H^T + H^T H
+    Lane c[3][3];
+    for (int i = 0; i < 3; ++i)
+        for (int j = i; j < 3; ++j) {
+            c[i][j] = h[i][j] + h[j][i];
+            for (int k = 0; k < 3; ++k) c[i][j] = solve::fused(h[k][i], h[k][j], c[i][j]);
+        }
 
     const Lane spare = j_minus_1 + kSpare;
     const Lane crushed = kMore * (spare < Real(0) ? spare : Lane{});
-    const Lane pressure = bulk * (j_minus_1 + crushed);
+    const Lane pressure = bulk * (mean_minus_1 + crushed);
 
     const Lane off_diagonal = dot(c[0][1], c[0][1], c[0][2], c[0][2], c[1][2], c[1][2]);
     const Lane squares =
         dot(c[0][0], c[0][0], c[1][1], c[1][1], c[2][2], c[2][2]) + off_diagonal + off_diagonal;
-    const Lane twice =
-        solve::fused(shear * kHalf, squares,
-                     bulk * solve::fused(j_minus_1, j_minus_1, (1 / kMore) * crushed * crushed));
+    const Lane twice = solve::fused(
+        shear * kHalf, squares,
+        bulk * solve::fused(mean_minus_1, mean_minus_1, (1 / kMore) * crushed * crushed));
 
     for (int i = 0; i < 3; ++i)
         for (int j = i; j < 3; ++j) c[j][i] = c[i][j] = shear * c[i][j];
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
-            p[i][j] = solve::fused(pressure, cof[i][j], c[i][j]);
-            for (int k = 0; k < 3; ++k) p[i][j] = solve::fused(h[i][k], c[k][j], p[i][j]);
+            cof[i][j] = solve::fused(pressure, cof[i][j], c[i][j]);
+            for (int k = 0; k < 3; ++k) cof[i][j] = solve::fused(h[i][k], c[k][j], cof[i][j]);
         }
     return kHalf * twice;
 }
@@ -235,12 +268,17 @@ double TetSolid::add_energy_in(Work<Real>& work, const Points& x, Points& gradie
             const Group<Real, kTets>& g = groups.list[n];
             Lane edge[kTets + 2][3], force[kTets + 2][3]{};
             gather(u, g, edge);
-            Lane of_fan{};
+            Lane of_fan{}, mean_minus_1{}, j_minus_1[kTets], of_tet[kTets][3][3],
+                stress[kTets][3][3];
+            for (int t = 0; t < kTets; ++t) {
+                gradient_of(edge[0], edge[1 + t], edge[2 + t], g.tet[t].b, of_tet[t]);
+                j_minus_1[t] = volume_change_of<Real>(of_tet[t], stress[t]);
+                mean_minus_1 = solve::fused(g.tet[t].share, j_minus_1[t], mean_minus_1);
+            }
             for (int t = 0; t < kTets; ++t) {
                 const auto& tet = g.tet[t];
-                Lane h[3][3], p[3][3];
-                gradient_of(edge[0], edge[1 + t], edge[2 + t], tet.b, h);
-                of_fan += stress_of<Real>(h, tet.shear, tet.bulk, p);
+                Lane(&h)[3][3] = of_tet[t], (&p)[3][3] = stress[t];
+                of_fan += stress_of<Real>(h, j_minus_1[t], mean_minus_1, tet.shear, tet.bulk, p);
                 if constexpr (kInStep) {
                     Lane squares{};
                     const Lane damping = viscosity * tet.shear;
@@ -292,6 +330,15 @@ double TetSolid::signed_volume(const Points& x, int tet) const {
     return edges(x, tets_, tet).determinant() / 6.0;
 }
 
+double TetSolid::mean_volume_ratio(const Points& x, int tet) const {
+    const Fan& fan = fans_[static_cast<std::size_t>(place_[static_cast<std::size_t>(tet)].fan)];
+    double mean = 0;
+    for (int k = 0; k < fan.nodes - 3; ++k)
+        mean += place_[static_cast<std::size_t>(fan.tets[k])].share *
+                signed_volume(x, fan.tets[k]) / rest_volume_[fan.tets[k]];
+    return mean;
+}
+
 Mat3 TetSolid::deformation_gradient(const Points& x, int tet) const {
     return edges(x, tets_, tet) * inverse_[static_cast<std::size_t>(tet)];
 }
@@ -300,7 +347,8 @@ Mat3 TetSolid::cauchy_stress_pa(const Points& x, int tet) const {
     const Mat3 f = deformation_gradient(x, tet);
     const double j = f.determinant(), bulk = bulk_[tet];
     if (j == 0) return Mat3::Zero();
-    const double pressure = bulk * (j - 1) + kHardens * bulk * std::min(0.0, j - kCrushed);
+    const double pressure =
+        bulk * (mean_volume_ratio(x, tet) - 1) + kHardens * bulk * std::min(0.0, j - kCrushed);
     return mu_[tet] / j * f * (f.transpose() * f - Mat3::Identity()) * f.transpose() +
            pressure * Mat3::Identity();
 }

@@ -2,9 +2,14 @@
 /// \file
 /// Soft tissue as tetrahedra: the metric and volume energy of a nearly incompressible solid.
 ///
-///     E = sum V [ mu/4 |F^T F - I|^2 + K/2 (J - 1)^2 + c K/2 min(0, J - J_c)^2 ]
+///     E = sum V [ mu/4 |F^T F - I|^2 + K/2 (M - 1)^2 + c K/2 min(0, J - J_c)^2 ]
 ///
 /// - F: deformation gradient; J = det F; G: gradients of the shape functions in a tet, 1/m
+/// - M: mean of J over the tets of a fan (tet_fans.h), weighted by V K; J itself for a tet that is in no fan. The three tets of a prism
+///   keep their volume together. If each kept its own, a layer of prisms would be too stiff (volumetric locking): it has four of these
+///   conditions for each of its columns of nodes then, instead of twelve. The mean over patches of elements is that of
+///   E. A. de Souza Neto, F. M. Andrade Pires, D. R. J. Owen (2005), F-bar-based linear triangles and tetrahedra for finite strain
+///   analysis of nearly incompressible solids, Int. J. Numer. Meth. Engng 62, 353-383
 /// - V: rest volume, m^3
 /// - mu, K: shear modulus and modulus of the volume term (Lame's first parameter, not the bulk modulus), Pa
 /// - J_c, c: kCrushed and kHardens, without unit
@@ -32,8 +37,8 @@ namespace risorius::tissue {
 /// Energy and forces of soft tissue. An object keeps scratch arrays, so only one thread at a time may use it.
 class TetSolid {
   public:
-    static constexpr double kCrushed = 0.2;  ///< J_c
-    static constexpr double kHardens = 4;    ///< c
+    static constexpr double kCrushed = 0.5;  ///< J_c
+    static constexpr double kHardens = 8;    ///< c
 
     /// Moduli are given per tet. Throws std::invalid_argument when a tet has no positive rest volume.
     TetSolid(const Tets& tets, const Points& rest, const Eigen::VectorXd& mu_pa,
@@ -84,6 +89,7 @@ class TetSolid {
             Lane b[9];   ///< inverse of the matrix of rest edges a-b, a-r_i, a-r_i+1; a row each
             Lane shear;  ///< V mu
             Lane bulk;   ///< V K
+            Lane share;  ///< V K / its sum over the fan
         };
         Tet tet[kTets];
         std::int32_t node[kTets + 3][kWidth];  ///< a, b, r_0 .. ; [corner][lane]
@@ -104,6 +110,7 @@ class TetSolid {
     };
     template <class Real>
     void fill(Work<Real>& work, const TetFans& found) const;
+    void place(const TetFans& found);
     template <class Real, int kTets>
     void fill(Groups<Real, kTets>& groups, const std::vector<TetFan>& fans) const;
     template <class Real>
@@ -111,11 +118,27 @@ class TetSolid {
     template <class Real, bool kInStep>
     double add_energy_in(Work<Real>& work, const Points& x, Points& gradient) const;
     double signed_volume(const Points& x, int tet) const;
+    double mean_volume_ratio(const Points& x, int tet) const;  ///< M
     void add_gradients(solve::MetricBuilder& builder, const Eigen::VectorXd& weight) const;
 
     Tets tets_;
     Points rest_;
     Eigen::VectorXd rest_volume_, mu_, bulk_;
+    /// A fan, or a tet that is in none.
+    struct Fan {
+        int nodes = 0;  ///< 6 or 4; there are three fewer tets
+        std::array<int, kFanTets> tets{};
+        std::array<int, kFanTets + 3> node{};  ///< a, b, r_0 ..
+        double bulk = 0;                       ///< sum of V K
+    };
+    /// Where a tet is in its fan.
+    struct Place {
+        int fan = 0;
+        double share = 0;             ///< V K / its sum over the fan
+        std::array<int, 4> corner{};  ///< 6 fan + the number of the corner's node in the fan
+    };
+    std::vector<Fan> fans_;
+    std::vector<Place> place_;   ///< per tet
     std::vector<Mat3> inverse_;  ///< of the matrix of rest edges x_k+1 - x_0; rows
     double viscosity_ = 0;       ///< of the current step, from begin_step()
     mutable Work<double> double_;

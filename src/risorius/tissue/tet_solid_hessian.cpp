@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The second derivative of TetSolid, tet by tet in the frame of its principal stretches:
-//   psi_i = mu s_i (s_i^2 - 1) + K (J - 1 + c min(0, J - J_c)) s_j s_k
+// The second derivative of TetSolid. The part of each tet, in the frame of its principal stretches, is that of
+//   psi_i = mu s_i (s_i^2 - 1) + p s_j s_k,   p = K (M - 1 + c min(0, J - J_c)),
+// where M is held. M, the mean J of a fan, changes with all its nodes: this adds K_fan (dM/dx) (dM/dx)^T, which is never negative.
 #include <algorithm>
 #include <array>
 
@@ -12,11 +13,10 @@ namespace risorius::tissue {
 
 namespace {
 
-detail::StretchModes modes_of(const Vec3& s, double mu, double at_rest) {
-    const double volume = s[0] * s[1] * s[2];
-    const double crushed = std::min(0.0, volume - TetSolid::kCrushed);
-    const double pressure = at_rest * (volume - 1 + TetSolid::kHardens * crushed);
-    const double bulk = at_rest * (crushed < 0 ? 1 + TetSolid::kHardens : 1);
+detail::StretchModes modes_of(const Vec3& s, double mean_minus_1, double mu, double at_rest) {
+    const double crushed = std::min(0.0, s[0] * s[1] * s[2] - TetSolid::kCrushed);
+    const double pressure = at_rest * (mean_minus_1 + TetSolid::kHardens * crushed);
+    const double bulk = crushed < 0 ? at_rest * TetSolid::kHardens : 0.0;
     detail::StretchModes modes;
     for (int k = 0; k < 3; ++k) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -34,6 +34,7 @@ detail::StretchModes modes_of(const Vec3& s, double mu, double at_rest) {
 
 void TetSolid::add_hessian(const Points& x, solve::Curvature curvature,
                            solve::HessianBuilder& hessian) const {
+    Points of_mean = Points::Zero(static_cast<long>(fans_.size()) * (kFanTets + 3), 3);  // dM/dx
     std::array<Mat3, 4> f;
     std::array<detail::PrincipalStretches, 4> four;
     for (int tet = 0; tet < size(); ++tet) {
@@ -46,8 +47,10 @@ void TetSolid::add_hessian(const Points& x, solve::Curvature curvature,
             four = detail::principal_stretches(f);
         }
         const detail::PrincipalStretches& stretches = four[lane];
+        const Vec3& s = stretches.sigma;
+        const double bulk = rest_volume_[tet] * bulk_[tet];
         detail::StretchModes modes =
-            modes_of(stretches.sigma, rest_volume_[tet] * mu_[tet], rest_volume_[tet] * bulk_[tet]);
+            modes_of(s, mean_volume_ratio(x, tet) - 1, rest_volume_[tet] * mu_[tet], bulk);
         if (curvature == solve::Curvature::kPositive) detail::clamp(modes);
 
         // Row k of the inverse is the gradient of the shape function of corner k + 1. The four gradients add up to zero.
@@ -55,12 +58,27 @@ void TetSolid::add_hessian(const Points& x, solve::Curvature curvature,
         Vec3 gradient[4];
         for (int k = 0; k < 3; ++k) gradient[k + 1] = g.row(k).transpose();
         gradient[0] = -(gradient[1] + gradient[2] + gradient[3]);
+
+        const auto& in_fan = place_[static_cast<std::size_t>(tet)];
+        const Vec3 across(s[1] * s[2], s[2] * s[0], s[0] * s[1]);  // cofactor, in this frame
+        for (int a = 0; a < 4; ++a)
+            of_mean.row(in_fan.corner[a]) +=
+                in_fan.share * (stretches.u * across.cwiseProduct(gradient[a])).transpose();
+
         for (int a = 0; a < 4; ++a)
             for (int b = 0; b <= a; ++b) {
                 const Mat3 block = detail::stretch_block(modes, gradient[a], gradient[b]);
                 hessian.add(tets_(tet, a), tets_(tet, b),
                             stretches.u * block * stretches.u.transpose());
             }
+    }
+    for (std::size_t n = 0; n < fans_.size(); ++n) {
+        const Fan& fan = fans_[n];
+        const Eigen::Index first = static_cast<Eigen::Index>(n) * (kFanTets + 3);
+        for (int a = 0; a < fan.nodes; ++a)
+            for (int b = 0; b <= a; ++b)
+                hessian.add(fan.node[a], fan.node[b],
+                            fan.bulk * of_mean.row(first + a).transpose() * of_mean.row(first + b));
     }
 }
 
