@@ -15,6 +15,16 @@ constexpr double kTipUp_rad = 1.1;    // maximum curl of the blade
 constexpr double kOverLip_rad = 0.6;  // angle over the lower lip at full protrusion
 constexpr double kFlattest = 0.35;    // minimum thickness between teeth / thickness at rest
 constexpr double kEngaged = 0.2;      // protrusion above which teeth and lips guide it fully
+// At rest the tongue fills the mouth up to the palate. When the jaw opens it lies down on the floor of the mouth. Estimates, by eye
+constexpr double kWideOpen_rad = 0.44;  // rotation of the jaw at which it lies flat
+constexpr double kLiesDown = 0.3;       // fraction of its height that it has lost then
+constexpr double kRootSinks_mm = 9;     // with the hyoid bone, average adult
+
+// Returns how far the jaw is open, 0..1.
+double opening(const Rigid& mandible) {
+    return std::clamp(std::acos(std::clamp(mandible.linear()(1, 1), -1.0, 1.0)) / kWideOpen_rad,
+                      0.0, 1.0);
+}
 
 double forward_angle(const Vec3& tangent) { return std::atan2(tangent.y(), tangent.z()); }
 
@@ -64,7 +74,7 @@ Tongue::Tongue(const rig::Head& head, double range_m) : head_(head), range_m_(ra
         const auto i = static_cast<std::size_t>(k);
         const double along = static_cast<double>(k) / kPieces;
         rest_.point.push_back({0, height[i] / weight[i], back + along * length_m_});
-        over_jaw_[i] *= (0.55 + 0.4 * geom::smoothstep(0.0, 0.7, along)) / weight[i];
+        over_jaw_[i] *= (0.55 + 0.45 * geom::smoothstep(0.0, 0.5, along)) / weight[i];
     }
     for (int v : vertices) {
         const Vec3 p = head.vertices.row(v).transpose();
@@ -156,7 +166,14 @@ void Tongue::place(const TongueDrive& drive, Points& vertices) const {
     if (empty()) return;
     const double out = drive.out * (drive.out > 0 ? room(drive) : 1.0);
     Line line = bent(drive, out);
-    std::vector<double> flat(kPieces + 1, 1.0);
+    const double open = opening(drive.mandible), lies = 1 - kLiesDown * open;
+    std::vector<double> flat(kPieces + 1, lies);
+    const Vec3 down = drive.mandible.linear() * Vec3(0, -0.5 * (1 - lies) * thickness_m_, 0);
+    for (std::size_t i = 0; i < line.point.size(); ++i) {
+        const double behind = 1 - static_cast<double>(i) / kPieces;
+        line.point[i] += over_jaw_[i] * down;
+        line.point[i].y() -= open * behind * head_.mm(kRootSinks_mm);
+    }
     if (out > 0) {
         // At the teeth and then at the lips, the tongue is shifted into the gap and flattened to its height
         const double engaged = geom::smoothstep(0, kEngaged, out);
@@ -188,7 +205,7 @@ void Tongue::place(const TongueDrive& drive, Points& vertices) const {
         }
         for (std::size_t i = 0; i < line.point.size(); ++i) {
             line.point[i].y() += engaged * shift[i];
-            flat[i] = 1 - engaged * (1 - flat[i]);
+            flat[i] = lies - engaged * (lies - flat[i]);
         }
     }
     for (const Member& m : members_) {

@@ -25,7 +25,7 @@ constexpr double kTarsalPlate_pa_per_m = 5e6;  // tarsal plate holding its lid
 
 // Ratios to the tissue of the face, for the floor of the mouth. Fat below the mandible is loose. It has to keep its volume while the
 // opening jaw takes a third of its base away. Estimates; with them the measured jawOpen of ICT is met best.
-constexpr double kFloorShearRatio = 0.5, kFloorBulkRatio = 2.5;
+constexpr double kFloorShearRatio = 0.5, kFloorBulkRatio = 0.8;
 
 constexpr double kAboutMouth_mm = 20;    // radius around the line between the lips, average adult
 constexpr double kMouthTolerance = 0.1;  // of the mouth's own iterations, ratio to that of the step
@@ -108,6 +108,7 @@ void FaceTissue::build_tissue() {
         mu[t] = ratio * (mesh_.tet_layer[t] == kMiddle ? rig_.tissue.deep_shear_pa
                                                        : rig_.tissue.superficial_shear_pa);
         bulk[t] = std::pow(rig_.tissue.lid_shear_ratio, lid_fraction(centre)) *
+                  std::pow(rig_.tissue.lip_shear_ratio, 0.5 * lip_fraction(centre)) *
                   std::pow(kFloorBulkRatio, floor) * rig_.tissue.bulk_pa;
     }
     tets_.emplace(mesh_.tets, mesh_.nodes, mu, bulk);
