@@ -89,7 +89,7 @@ struct TissueDescription {
     double fibre_passive_strain = 1.5;
     /// Bundles of fibres: "facial", with calibrated curves and without tendon, or "musculotendon", with the curves of the volume
     /// muscles and the tendon, pennation and length at rest of the muscle table
-    std::string bundles = "facial";
+    std::string bundles = "musculotendon";
     double force_scale = 1.5;  ///< factor of the force of every muscle, in addition to its strength
     std::vector<CollagenRegion> collagen = {};  ///< regions that are stiffer in one direction
 };
