@@ -53,6 +53,16 @@ TEST_F(MuscleSolidsInFace, WithoutActivationNothingMoves) {
         EXPECT_NEAR(figures.volume_ratio, 1.0, 1e-9) << figures.muscle;
 }
 
+TEST_F(MuscleSolidsInFace, NoTissueAroundAMuscleIsSofterThanTheMuscle) {
+    const std::vector<BesideSolid> all = face().diagnostics().beside_solids();
+    EXPECT_EQ(all.size(), 8u);
+    for (const BesideSolid& one : all) {
+        EXPECT_GT(one.nodes, 0) << one.muscle;
+        EXPECT_GE(one.softest_pa, one.muscle_pa) << one.muscle;
+        EXPECT_LT(one.ratio(), 1.6) << one.muscle;
+    }
+}
+
 TEST_F(MuscleSolidsInFace, AFullContractionKeepsTheVolumeOfEveryMuscle) {
     for (const char* muscle : {"masseter_superficial", "zygomaticus_major", "mentalis",
                                "orbicularis_oris_upper_peripheral"}) {

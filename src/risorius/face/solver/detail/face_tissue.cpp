@@ -111,6 +111,7 @@ void FaceTissue::build_tissue() {
                   std::pow(rig_.tissue.lip_shear_ratio, 0.5 * lip_fraction(centre)) *
                   std::pow(kFloorBulkRatio, floor) * rig_.tissue.bulk_pa;
     }
+    solids_->add_sheaths(mesh_.nodes, mesh_.tets, mu);
     tets_.emplace(mesh_.tets, mesh_.nodes, mu, bulk);
 }
 
