@@ -23,6 +23,10 @@ Mat3 edges(const Points& x, const Tets& tets, int tet) {
 
 TetSolid::TetSolid(const Tets& tets, const Points& rest, const Eigen::VectorXd& mu_pa,
                    const Eigen::VectorXd& bulk_pa)
+    : TetSolid(tets, rest, mu_pa, bulk_pa, find_fans(tets)) {}
+
+TetSolid::TetSolid(const Tets& tets, const Points& rest, const Eigen::VectorXd& mu_pa,
+                   const Eigen::VectorXd& bulk_pa, const TetFans& fans)
     : tets_(tets), rest_(rest), rest_volume_(tets.rows()), mu_(mu_pa), bulk_(bulk_pa) {
     assert(mu_pa.size() == tets.rows() && bulk_pa.size() == tets.rows());
     for (int tet = 0; tet < size(); ++tet) {
@@ -33,10 +37,9 @@ TetSolid::TetSolid(const Tets& tets, const Points& rest, const Eigen::VectorXd& 
                                         " has no positive volume at rest");
         inverse_.push_back(rest_edges.inverse());
     }
-    const TetFans found = find_fans(tets_);
-    place(found);
-    fill(double_, found);
-    fill(single_, found);
+    place(fans);
+    fill(double_, fans);
+    fill(single_, fans);
 }
 
 void TetSolid::place(const TetFans& found) {
@@ -179,6 +182,7 @@ template <class Real, class Lane>
                                              const Lane& mean_minus_1, const Lane& shear,
                                              const Lane& bulk, Lane (&cof)[3][3]) {
     constexpr Real kHalf = Real(0.5);
+    constexpr Real kOwn = Real(TetSolid::kOwnVolume), kShared = Real(1 - TetSolid::kOwnVolume);
     constexpr Real kSpare = Real(1 - TetSolid::kCrushed), kMore = Real(TetSolid::kHardens);
     // C = H + H^T + H^T H
     Lane c[3][3];
@@ -190,14 +194,15 @@ template <class Real, class Lane>
 
     const Lane spare = j_minus_1 + kSpare;
     const Lane crushed = kMore * (spare < Real(0) ? spare : Lane{});
-    const Lane pressure = bulk * (mean_minus_1 + crushed);
+    const Lane own = kOwn * j_minus_1, shared = kShared * mean_minus_1;
+    const Lane pressure = bulk * (own + shared + crushed);
 
     const Lane off_diagonal = dot(c[0][1], c[0][1], c[0][2], c[0][2], c[1][2], c[1][2]);
     const Lane squares =
         dot(c[0][0], c[0][0], c[1][1], c[1][1], c[2][2], c[2][2]) + off_diagonal + off_diagonal;
     const Lane twice = solve::fused(
         shear * kHalf, squares,
-        bulk * solve::fused(mean_minus_1, mean_minus_1, (1 / kMore) * crushed * crushed));
+        bulk * dot(shared, mean_minus_1, own, j_minus_1, (1 / kMore) * crushed, crushed));
 
     for (int i = 0; i < 3; ++i)
         for (int j = i; j < 3; ++j) c[j][i] = c[i][j] = shear * c[i][j];
@@ -328,6 +333,16 @@ void TetSolid::add_laplacian(solve::MetricBuilder& builder, double scale) const 
 
 double TetSolid::signed_volume(const Points& x, int tet) const {
     return edges(x, tets_, tet).determinant() / 6.0;
+}
+
+TetFans TetSolid::fans() const {
+    TetFans out;
+    for (const Fan& fan : fans_)
+        if (fan.nodes == kFanTets + 3)
+            out.fans.push_back({fan.tets, fan.node});
+        else
+            out.alone.push_back(fan.tets[0]);
+    return out;
 }
 
 double TetSolid::mean_volume_ratio(const Points& x, int tet) const {

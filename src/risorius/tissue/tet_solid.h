@@ -37,12 +37,16 @@ namespace risorius::tissue {
 /// Energy and forces of soft tissue. An object keeps scratch arrays, so only one thread at a time may use it.
 class TetSolid {
   public:
-    static constexpr double kCrushed = 0.5;  ///< J_c
-    static constexpr double kHardens = 8;    ///< c
+    static constexpr double kOwnVolume = 0.25;
+    static constexpr double kCrushed = 0.3;  ///< J_c
+    static constexpr double kHardens = 4;    ///< c
 
     /// Moduli are given per tet. Throws std::invalid_argument when a tet has no positive rest volume.
     TetSolid(const Tets& tets, const Points& rest, const Eigen::VectorXd& mu_pa,
              const Eigen::VectorXd& bulk_pa);
+    /// The same with given fans instead of those that find_fans() finds: each tet in one fan or alone.
+    TetSolid(const Tets& tets, const Points& rest, const Eigen::VectorXd& mu_pa,
+             const Eigen::VectorXd& bulk_pa, const TetFans& fans);
 
     /// Returns E(x), J, and adds dE/dx to `gradient`, n x 3, N. The terms are summed in a fixed order. The energy is computed
     /// from displacements, so that the rest shape is exact in float too. In float, forces have a relative error of about 1e-6.
@@ -70,6 +74,7 @@ class TetSolid {
     const Tets& tets() const { return tets_; }
     const Eigen::VectorXd& mu_pa() const { return mu_; }      ///< mu, per tet
     const Eigen::VectorXd& bulk_pa() const { return bulk_; }  ///< K, per tet
+    TetFans fans() const;  ///< whose tets keep their volume together
     int size() const { return static_cast<int>(tets_.rows()); }
     Mat3 deformation_gradient(const Points& x, int tet) const;  ///< F
     /// Returns the Cauchy stress of a tet, Pa, without damping: the derivative of E by F, times F^T / J. Zero when J is 0.

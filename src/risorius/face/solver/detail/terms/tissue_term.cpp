@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/face/solver/detail/terms/tissue_term.h"
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -8,19 +9,31 @@ namespace risorius::face {
 
 namespace {
 
-// All tetrahedra with a moving node.
+// All tetrahedra with a moving node, and those that keep their volume together with them.
 class LocalTissue : public LocalTerm {
   public:
     LocalTissue(const tissue::TetSolid& whole, double damping_s, LocalNodes& nodes)
         : damping_s_(damping_s) {
         const Tets& all = whole.tets();
+        const tissue::TetFans fans = whole.fans();
+        const auto move = [&](const auto& some) {
+            return std::any_of(some.begin(), some.end(), [&](int n) { return nodes.moves(n); });
+        };
         std::vector<int> rows;
-        for (int t = 0; t < static_cast<int>(all.rows()); ++t)
-            for (int k = 0; k < 4; ++k)
-                if (nodes.moves(all(t, k))) {
-                    rows.push_back(t);
-                    break;
-                }
+        for (tissue::TetFan fan : fans.fans) {
+            if (!move(fan.nodes)) continue;
+            for (int& tet : fan.tets) {
+                rows.push_back(tet);
+                tet = static_cast<int>(rows.size()) - 1;
+            }
+            for (int& node : fan.nodes) node = nodes.add(node);
+            fans_.fans.push_back(fan);
+        }
+        for (const int tet : fans.alone)
+            if (move(all.row(tet))) {
+                fans_.alone.push_back(static_cast<int>(rows.size()));
+                rows.push_back(tet);
+            }
         tets_.resize(static_cast<long>(rows.size()), 4);
         mu_.resize(tets_.rows());
         bulk_.resize(tets_.rows());
@@ -32,7 +45,7 @@ class LocalTissue : public LocalTerm {
         }
     }
     void build(const LocalNodes&, const Points& rest) override {
-        solid_.emplace(tets_, rest, mu_, bulk_);
+        solid_.emplace(tets_, rest, mu_, bulk_, fans_);
     }
     void add_metric(const LocalNodes&, double h, solve::MetricBuilder& builder) const override {
         solid_->add_metric(builder);
@@ -49,6 +62,7 @@ class LocalTissue : public LocalTerm {
   private:
     double damping_s_;
     Tets tets_;
+    tissue::TetFans fans_;
     Eigen::VectorXd mu_, bulk_;
     std::optional<tissue::TetSolid> solid_;
     solve::Precision precision_ = solve::Precision::kDouble;
