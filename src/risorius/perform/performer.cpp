@@ -127,7 +127,9 @@ void Performer::correct_readout() {
         x.col(k) = shown_[range];
         for (Eigen::Index c = 0; c < wanted.rows(); ++c)
             if (moves(ranges()[range], reader_->channels[static_cast<std::size_t>(c)].name))
-                wanted(c, k) = reader_->curves(c, RigReader::kLevels - 1);
+                // Two units of one expression hide some of each other, in the rig as well.
+                wanted(c, k) = 0.5 * (reader_->curves(c, RigReader::kLevels - 1) +
+                                      reader_->full(c, static_cast<Eigen::Index>(range)));
     }
     readout_ = corrected_readout(reader_->readout, x, wanted);
 }
