@@ -104,13 +104,14 @@ void Studio::run(serve::WebServer& server, const std::function<bool()>& stopped)
         .tick = [this] { tick(); }};
     make_pictures(server);
     server.run(handler, [&] { return stopped() || idle_ticks_ > kTicksWithoutPage; });
+    // First: what runs may take longer to end than a signal leaves time for (stop_signals.h).
+    if (script_.session->dirty()) write_recovery();
     painter_.reset();
     bones_.reset();
     head_->finish();
     export_->finish();
     perform_.finish();
     thumbnails_.finish();
-    if (script_.session->dirty()) write_recovery();
 }
 
 Studio::Page* Studio::page_of(const serve::Peer& peer) {

@@ -41,25 +41,30 @@ track::Drive strongest_drive(const track::Timeline& timeline, double duration_s)
     return best;
 }
 
-Image drawn(const JsonCursor& script, const scene::RigFiles& files) {
+Image drawn(const JsonCursor& script, const scene::RigFiles& files,
+            const ProgressMonitor& monitor) {
     const track::ChannelTable channels = files.rig.channels();
     const track::ScriptDescription read =
         track::read_script(script, channels, files.rig.facs, files.rig.expressions);
     const track::Drive drive =
         strongest_drive(track::Timeline(read, channels), read.header.duration_s);
+    monitor.throw_if_stopped();
     face::Face face(files.rig, files.mesh, face::quality_named("draft"), files.place());
     render::Scene scene = scene::scene_from_rig(face.head(), files.rig, files.mesh);
     scene::add_wrinkles(face.surfaces().wrinkle_lines(), scene);
+    monitor.throw_if_stopped();
     render::OffscreenView view(scene, {.width_px = kThumbnail_px, .height_px = kThumbnail_px});
+    monitor.throw_if_stopped();
     face.start([&](double) { return drive; });
     return view.draw(scene::pose_for_view(face.pose()));
 }
 
 }  // namespace
 
-std::string thumbnail_of(const fs::path& script) {
+std::string thumbnail_of(const fs::path& script, const ProgressMonitor& monitor) {
     const ReadingFormerOutput script_may_be_replaced;
-    animate::RenderInputs inputs(ProgressMonitor{}, animate::RenderInputs::Poses::kOnlyKnown);
+    animate::RenderInputs inputs(ProgressMonitor{{}, monitor.stopped},
+                                 animate::RenderInputs::Poses::kOnlyKnown);
     const std::shared_ptr<const animate::ScriptInput> input = inputs.script(script);
     const std::shared_ptr<const animate::RigInput> rig =
         inputs.rig(track::read_script_header(input->json).rig_file);
@@ -70,7 +75,7 @@ std::string thumbnail_of(const fs::path& script) {
         key.finish(),
         [&] {
             const std::string png =
-                media::png_bytes(drawn(input->json, rig->files), script.string());
+                media::png_bytes(drawn(input->json, rig->files, monitor), script.string());
             return KeptPicture{{png.begin(), png.end()}};
         },
         [](auto& picture, const auto& visit) { visit(picture.png); });
@@ -115,7 +120,10 @@ void StudioThumbnails::work(const std::stop_token& asked, serve::WebServer& serv
         }
         std::string png;
         try {
-            png = thumbnail_of(wanted.script);
+            png = thumbnail_of(wanted.script,
+                               {.progress = {}, .stopped = [&] { return asked.stop_requested(); }});
+        } catch (const Interrupted&) {
+            return;
         } catch (const std::exception&) {
             // The list has a place without a picture; opening the script says what is wrong.
         }

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "risorius/core/json_text.h"
+#include "risorius/core/progress_monitor.h"
 #include "risorius/serve/web_server.h"
 
 namespace risorius::cli {
@@ -21,8 +22,8 @@ namespace risorius::cli {
 inline constexpr int kThumbnail_px = 128;
 
 /// The face at the moment at which the channels of the script drive its muscles most, as the bytes of a PNG. What the script says is
-/// left out. Throws Error when the script or its rig cannot be used.
-std::string thumbnail_of(const std::filesystem::path& script);
+/// left out. Throws Error when the script or its rig cannot be used, and Interrupted.
+std::string thumbnail_of(const std::filesystem::path& script, const ProgressMonitor& monitor = {});
 
 /// Bytes as base64 (RFC 4648).
 std::string base64_of(const std::string& bytes);
