@@ -10,6 +10,7 @@
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/landmarks/face_network.h"
+#include "risorius/perform/rig_reader.h"
 
 namespace risorius::cli {
 

@@ -18,7 +18,7 @@
 
 #include "risorius/core/progress_monitor.h"
 #include "risorius/perform/detail/face_shape.h"
-#include "risorius/perform/rig_pictures.h"
+#include "risorius/perform/detail/rig_pictures.h"
 
 namespace risorius::perform {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/perform/rig_pictures.h"
+#include "risorius/perform/detail/rig_pictures.h"
 
 #include <nlohmann/json.hpp>
 
