@@ -18,6 +18,15 @@ export interface CameraActions {
   picture(bytes: ArrayBuffer): void;
 }
 
+/// What a person can calibrate, and what to do for it.
+const poses: Record<string, { name: string; hold: string }> = {
+  rest: { name: "Rest", hold: "Look at the camera for two seconds, with a calm face and a closed mouth." },
+  brows: { name: "Brows up", hold: "Raise both brows as far as you can, for two seconds." },
+  smile: { name: "Smile", hold: "Smile as broadly as you can with a closed mouth, for two seconds." },
+  open: { name: "Mouth open", hold: "Open your mouth as far as you can, for two seconds." },
+  shut: { name: "Eyes shut", hold: "Shut both eyes for two seconds, without pressing them together." },
+};
+
 const longest_px = 480;
 const header_bytes = 24;
 const pictureKind = 1;
@@ -32,6 +41,9 @@ export class Camera {
   private on = false; ///< there are pictures, and the engine is ready for them
   private askedAt_ms = -Infinity; ///< when the picture that is looked at was sent
   private calibrated = false;
+  private posed = ""; ///< the pose that is being calibrated
+  private begun = false; ///< the engine has begun with it
+  private ranges: Record<string, string> = {};
   private values: Record<string, number> = {};
 
   constructor(private readonly actions: CameraActions) {
@@ -39,7 +51,7 @@ export class Camera {
     click("camera-open", () => this.open(this.panel.hidden === true));
     click("camera-close", () => this.open(false));
     click("camera-start", () => void this.useCamera());
-    click("camera-calibrate", () => this.calibrate());
+    for (const button of this.poseButtons()) button.addEventListener("click", () => this.calibrate(button.dataset.pose!));
     byId("camera-file").addEventListener("change", () => {
       const file = byId<HTMLInputElement>("camera-file").files?.[0];
       if (file) void this.useFile(file);
@@ -100,15 +112,21 @@ export class Camera {
     this.video.hidden = true;
     this.values = {};
     byId<HTMLInputElement>("camera-file").value = "";
-    byId<HTMLButtonElement>("camera-calibrate").disabled = true;
+    byId<HTMLFieldSetElement>("camera-ranges").disabled = true;
     byId("camera-progress").hidden = true;
     byId("camera-values").replaceChildren();
     if (ran) this.actions.send({ type: "camera", do: "stop" });
   }
 
-  private calibrate(): void {
-    this.actions.send({ type: "camera", do: "calibrate" });
-    this.tell("Look at the camera for two seconds, with a calm face and a closed mouth.");
+  private poseButtons(): HTMLButtonElement[] {
+    return [...byId("camera-ranges").querySelectorAll<HTMLButtonElement>("button")];
+  }
+
+  private calibrate(pose: string): void {
+    this.posed = pose;
+    this.begun = false;
+    this.actions.send({ type: "camera", do: "calibrate", pose });
+    this.tell(poses[pose].hold);
   }
 
   /// What the engine says about the camera.
@@ -125,10 +143,10 @@ export class Camera {
     byId("camera-seen").textContent = `Seen: ${names(true).join(", ")}, head.`;
     const unseen = names(false);
     byId("camera-unseen").textContent = unseen.length > 0 ? `Not seen reliably: ${unseen.join(", ")}. They stay with the script.` : "";
-    byId<HTMLButtonElement>("camera-calibrate").disabled = false;
+    byId<HTMLFieldSetElement>("camera-ranges").disabled = false;
     this.on = true;
     this.calibrated = false;
-    this.calibrate();
+    this.calibrate("rest");
     this.next();
   }
 
@@ -138,13 +156,27 @@ export class Camera {
     if (!this.on) return;
     this.values = message.values;
     if (message.score < 0.3) this.tell("There is no face in the picture.", true);
-    else if (message.calibrating) this.tell("Look at the camera for two seconds, with a calm face and a closed mouth.");
-    else if (message.calibrated) this.tell(this.calibrated ? "" : "The face follows. Record (R) makes keys of it.");
+    else if (message.calibrating) {
+      this.begun = true;
+      this.tell(poses[this.posed || "rest"].hold);
+    } else if (message.calibrated) this.tellCalibrated(message.ranges);
     this.calibrated = message.calibrated;
     const list = byId("camera-values");
     const strong = Object.entries(this.values).filter(([name, value]) => Math.abs(value) >= (name.endsWith("_deg") ? 2 : 0.1));
     list.textContent = strong.map(([name, value]) => `${name} ${name.endsWith("_deg") ? `${value.toFixed(0)}°` : value.toFixed(2)}`).join("   ");
     this.next();
+  }
+
+  /// A calibration may have ended with this picture.
+  private tellCalibrated(ranges: Record<string, string>): void {
+    const pose = this.posed;
+    this.ranges = ranges;
+    for (const button of this.poseButtons()) button.classList.toggle("known", ranges[button.dataset.pose!] === "known");
+    if (pose !== "" && !this.begun) return;
+    this.posed = "";
+    if (pose === "rest") this.tell("The face follows. Show your brows up, a smile, an open mouth and shut eyes, and it follows more exactly. Record (R) makes keys of it.");
+    else if (ranges[pose] === "small") this.tell(`${poses[pose].name} was hardly seen, and is not used. Show it with all strength.`, true);
+    else if (pose !== "") this.tell(`${poses[pose].name} is calibrated.`);
   }
 
   /// Sends the picture that is there now, once the engine is free.
@@ -181,7 +213,7 @@ export class Camera {
   }
 
   /// For tests.
-  get debug(): { values: Record<string, number>; calibrated: boolean; on: boolean } {
-    return { values: this.values, calibrated: this.calibrated, on: this.on };
+  get debug(): { values: Record<string, number>; calibrated: boolean; on: boolean; ranges: Record<string, string> } {
+    return { values: this.values, calibrated: this.calibrated, on: this.on, ranges: this.ranges };
   }
 }

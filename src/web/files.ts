@@ -3,6 +3,7 @@
 /// Opens and saves scripts: the dialogs, and a copy for when the engine is gone.
 
 import { byId, h } from "./dom.js";
+import { hosted } from "./engine_choice.js";
 import type { Script } from "./protocol.js";
 
 export interface FileActions {
@@ -14,6 +15,8 @@ export interface FileActions {
 
 export class Files {
   private readonly dialog = byId<HTMLDialogElement>("save-dialog");
+  private readonly pictures = new Map<string, string>(); ///< by what is opened
+  private readonly places = new Map<string, HTMLImageElement>();
 
   constructor(private readonly actions: FileActions) {
     this.dialog.addEventListener("close", () => {
@@ -39,13 +42,32 @@ export class Files {
 
   showList(scripts: string[], samples: string[]): void {
     const dialog = byId<HTMLDialogElement>("open-dialog");
-    const entry = (text: string, message: Record<string, unknown>) =>
-      h("li", {}, h("button", { onclick: () => (dialog.close(), this.actions.send(message)) }, text));
+    const entry = (text: string, what: Record<string, string>) => {
+      const key = JSON.stringify(what);
+      const picture = h("img", { alt: "", class: "thumbnail" });
+      this.places.set(key, picture);
+      this.showPicture(key);
+      if (!hosted) this.actions.send({ type: "thumbnail", ...what });
+      return h("li", {}, h("button", { onclick: () => (dialog.close(), this.actions.send({ type: "open", ...what })) }, ...(hosted ? [] : [picture]), text));
+    };
+    this.places.clear();
     const list = (id: string, entries: HTMLElement[]) =>
       byId(id).replaceChildren(...(entries.length > 0 ? entries : [h("li", { class: "hint" }, "none")]));
-    list("scripts", scripts.map((path) => entry(path, { type: "open", path })));
-    list("samples", samples.map((sample) => entry(sample.replaceAll("_", " "), { type: "open", sample })));
+    list("scripts", scripts.map((path) => entry(path, { path })));
+    list("samples", samples.map((sample) => entry(sample.replaceAll("_", " "), { sample })));
     if (!dialog.open) dialog.showModal();
+  }
+
+  /// The engine has made the picture of a script.
+  useThumbnail(message: Record<string, string>): void {
+    const key = JSON.stringify("sample" in message ? { sample: message.sample } : { path: message.path });
+    this.pictures.set(key, message.png);
+    this.showPicture(key);
+  }
+
+  private showPicture(key: string): void {
+    const [place, png] = [this.places.get(key), this.pictures.get(key)];
+    if (place && png) place.src = `data:image/png;base64,${png}`;
   }
 }
 

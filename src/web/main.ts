@@ -279,6 +279,7 @@ function takeOther(message: Record<string, any>): void {
   if (message.type === "landmarks_found") newHead.useFound(message);
   if (message.type === "fit") newHead.useFit(message);
   if (message.type === "files") files.showList(message.scripts, message.samples);
+  if (message.type === "thumbnail") files.useThumbnail(message as unknown as Record<string, string>);
 }
 
 function connected(yes: boolean): void {

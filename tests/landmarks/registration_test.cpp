@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "paths.h"
 #include "risorius/io/read_mesh.h"
@@ -106,6 +107,19 @@ TEST_F(RegistrationTest, AHeadOnItselfStaysWhereItIs) {
     // Where the network sees nothing, less is known.
     EXPECT_LT(placed.at("prn").unseen_m, 2.5e-3);
     EXPECT_GT(placed.at("op").unseen_m, 5e-3);
+}
+
+TEST_F(RegistrationTest, TheShapeOfANoseCountsWhereTheNetworkErrs) {
+    std::vector<SeenPoint> face = known_->face;
+    const Vec3 tip = known_->landmarks.at("prn");
+    for (SeenPoint& point : face) {
+        const double near = std::exp(-(point.at - tip).squaredNorm() / (2 * 0.02 * 0.02));
+        const Vec3 wrong = point.at + Vec3(0, -6e-3 * near, 0);
+        point.at = known_->head.skin_tree.closest(wrong)->point;
+    }
+    const auto placed = placed_landmarks(*known_, known_->head, face);
+    std::printf("the tip is off by %.2f mm\n", 1e3 * (placed.at("prn").at - tip).norm());
+    EXPECT_LT((placed.at("prn").at - tip).norm(), 3e-3);
 }
 
 TEST_F(RegistrationTest, ALandmarkThatTheOthersContradictIsUnsure) {

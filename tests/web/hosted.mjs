@@ -96,13 +96,16 @@ await test("opens with the adult and a sample, and plays it", async () => {
 await test("gives the poses of risorius view", async () => {
   await openOwn("mine.json", JSON.stringify(script));
   await until(page, () => document.title.startsWith("mine.json"));
+  // A step ends when an iteration moves the nodes by less than 0.01 mm RMS: two builds that round differently may end one apart.
   let worst = 0;
+  let worstMean = 0;
   for (const t_s of [0, 0.1, 0.2, 0.3, 0.4, 0.5]) {
     const { most, mean } = apart(await poseAt(page, t_s), await poseAt(native, t_s));
     worst = Math.max(worst, most);
+    worstMean = Math.max(worstMean, mean);
     console.log(`      ${t_s} s: mean ${mean.toFixed(5)} mm, largest ${most.toFixed(4)} mm`);
   }
-  assert.ok(worst < 0.05, `${worst} mm`);
+  assert.ok(worstMean < 0.01 && worst < 0.1, `mean ${worstMean} mm, largest ${worst} mm`);
 });
 
 await test("a channel changes the shape, and undo takes its key back", async () => {

@@ -132,4 +132,20 @@ await test("the skull shows through the skin, and its mandible opens with the ja
   await page.locator("#sight").selectOption("skin");
 });
 
+await test("the list of scripts has small pictures, made when it is shown", async () => {
+  await page.locator("#open").click();
+  // The script of this test and the samples are of one rig, the adult: the first picture takes longest.
+  await until(page, () => [...document.querySelectorAll("#scripts img, #samples img")].some((one) => one.naturalWidth === 128));
+  await until(page, () => [...document.querySelectorAll("#scripts img")].every((one) => one.naturalWidth === 128));
+  await page.waitForFunction(() => document.querySelectorAll("#samples img[src]").length >= 3, null, { timeout: 120000 });
+  await shot(page, "thumbnails");
+  const pictures = await page.evaluate(() => [...document.querySelectorAll("#samples img[src]")].map((one) => one.src));
+  assert.ok(new Set(pictures).size >= 2, "samples look different");
+  // Shown again, the pictures are there at once.
+  await page.locator("#open-dialog button", { hasText: "Cancel" }).click();
+  await page.locator("#open").click();
+  await until(page, () => document.querySelectorAll("#scripts img[src], #samples img[src]").length >= 4);
+  await page.locator("#open-dialog button", { hasText: "Cancel" }).click();
+});
+
 await end();

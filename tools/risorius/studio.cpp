@@ -104,12 +104,14 @@ void Studio::run(serve::WebServer& server, const std::function<bool()>& stopped)
         .tick = [this] { tick(); }};
     make_pictures(server);
     server.run(handler, [&] { return stopped() || idle_ticks_ > kTicksWithoutPage; });
+    // First: what runs may take longer to end than a signal leaves time for (stop_signals.h).
+    if (script_.session->dirty()) write_recovery();
     painter_.reset();
     bones_.reset();
     head_->finish();
     export_->finish();
     perform_.finish();
-    if (script_.session->dirty()) write_recovery();
+    thumbnails_.finish();
 }
 
 Studio::Page* Studio::page_of(const serve::Peer& peer) {
@@ -208,13 +210,12 @@ void Studio::text(serve::Peer& peer, const std::string& message) {
             new_head(peer, type.get<std::string>(), cursor);
         } else if (is("camera")) {
             camera(cursor);
+        } else if (is("thumbnail")) {
+            thumbnail(cursor);
         } else if (is("render") || is("shapes") || is("cancel") || is("result")) {
             make(peer, type.get<std::string>(), cursor);
         } else if (is("open")) {
-            const auto sample = cursor.find("sample");
-            const fs::path file = sample ? data_folder() / "samples" /
-                                               fs::path(sample->string()).filename() / "script.json"
-                                         : project_script(cursor.at("path"));
+            const fs::path file = listed_script(cursor);
             if (script_.session->dirty()) write_recovery();
             open(file);
             for (Page& one : pages_) greet(one);
@@ -240,6 +241,21 @@ void Studio::text(serve::Peer& peer, const std::string& message) {
     } catch (const RunError& error) {
         peer.send_text(error_text(field("id"), error.what()));
     }
+}
+
+/// A script of the list: {"sample": "smile"} or {"path": below the folder}.
+fs::path Studio::listed_script(const JsonCursor& message) const {
+    if (const auto sample = message.find("sample"))
+        return data_folder() / "samples" / fs::path(sample->string()).filename() / "script.json";
+    return project_script(message.at("path"));
+}
+
+void Studio::thumbnail(const JsonCursor& message) {
+    message.allow_keys({"type", "id", "sample", "path"});
+    Json about = message.json();
+    about.erase("id");
+    thumbnails_.ask(listed_script(message), std::move(about), *server_,
+                    [this](const std::string& text) { tell_all(text); });
 }
 
 /// The face says a text from the playhead on, at once: its closures are not checked before.

@@ -17,6 +17,7 @@
 #include "tools/risorius/studio_head.h"
 #include "tools/risorius/studio_perform.h"
 #include "tools/risorius/studio_sound.h"
+#include "tools/risorius/studio_thumbnails.h"
 
 namespace risorius::cli {
 
@@ -73,6 +74,8 @@ class Studio {
     void make_pictures(serve::WebServer& server);
     Page* page_of(const serve::Peer& peer);
     std::filesystem::path project_script(const JsonCursor& name) const;
+    std::filesystem::path listed_script(const JsonCursor& message) const;
+    void thumbnail(const JsonCursor& message);
 
     std::string quality_;
     std::filesystem::path folder_;  ///< the project: canonical
@@ -80,6 +83,7 @@ class Studio {
     std::unique_ptr<StudioHead> head_;
     std::unique_ptr<StudioExport> export_;
     StudioPerform perform_;
+    StudioThumbnails thumbnails_;
     OpenScript script_;
     ScriptSound planned_, sound_;  ///< of the script that was read last; what the pages have
     std::vector<Page> pages_;

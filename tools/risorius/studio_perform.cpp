@@ -9,7 +9,8 @@
 #include "risorius/core/error.h"
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
-#include "risorius/perform/channel_columns.h"
+#include "risorius/landmarks/face_network.h"
+#include "risorius/perform/rig_reader.h"
 
 namespace risorius::cli {
 
@@ -24,13 +25,38 @@ T number_at(const std::string& bytes, std::size_t at) {
     return out;
 }
 
-Json ready_message(const perform::Columns& columns) {
+Json ready_message(const perform::RigReader& reader) {
     Json channels = Json::array();
-    for (const perform::CameraChannel& one : columns.channels)
+    for (const perform::CameraChannel& one : reader.channels)
         channels.push_back(json_object({{"name", one.name},
                                         {"reliable", one.reliable},
                                         {"error", std::round(100 * one.error) / 100}}));
     return json_object({{"type", "camera"}, {"state", "ready"}, {"channels", channels}});
+}
+
+constexpr const char* kRest = "rest";
+
+std::vector<std::string_view> calibrated_poses() {
+    std::vector<std::string_view> out{kRest};
+    for (const perform::Range& range : perform::ranges()) out.push_back(range.name);
+    return out;
+}
+
+void calibrate(const std::string& pose, perform::Performer& performer) {
+    if (pose == kRest) performer.calibrate();
+    for (std::size_t k = 0; k < perform::ranges().size(); ++k)
+        if (pose == perform::ranges()[k].name) performer.calibrate_range(k);
+}
+
+/// The ranges that a person has shown: {"smile": "known", "open": "small"}.
+Json ranges_json(const perform::Performer& performer) {
+    using State = perform::Performer::RangeState;
+    Json out = Json::object();
+    for (std::size_t k = 0; k < perform::ranges().size(); ++k)
+        if (performer.ranges_state()[k] != State::kNone)
+            out[perform::ranges()[k].name] =
+                performer.ranges_state()[k] == State::kKnown ? "known" : "small";
+    return out;
 }
 
 }  // namespace
@@ -63,11 +89,13 @@ void StudioPerform::post(std::function<void(const Listener&)> what) {
 void StudioPerform::receive(const JsonCursor& message,
                             const std::shared_ptr<const scene::RigFiles>& rig,
                             serve::WebServer& server, Listener listener) {
-    message.allow_keys({"type", "id", "do"});
+    message.allow_keys({"type", "id", "do", "pose"});
     const std::string what = message.at("do").one_of({"start", "calibrate", "stop"});
     if (what == "calibrate") {
+        const std::string pose =
+            message.has("pose") ? message.at("pose").one_of(calibrated_poses()) : kRest;
         const std::lock_guard lock(mutex_);
-        calibrate_ = true;
+        calibrate_ = pose;
         return;
     }
     if (what == "stop") {
@@ -76,17 +104,16 @@ void StudioPerform::receive(const JsonCursor& message,
         return;
     }
     finish();
-    if (!network_) network_ = std::make_shared<landmarks::FaceNetwork>(landmarks::weights_folder());
+    if (!networks_) networks_ = std::make_shared<perform::Networks>(landmarks::weights_folder());
     server_ = &server;
     listener_ = std::make_shared<const Listener>(std::move(listener));
-    if (learned_ != rig.get()) columns_.reset();
+    if (learned_ != rig.get()) reader_.reset();
     learned_ = rig.get();
     thread_ = std::make_unique<std::jthread>([this, rig](const std::stop_token& asked) {
         try {
-            if (!columns_) learn(asked, rig);
-            post([text = json_text(ready_message(*columns_))](const Listener& to) {
-                to.tell(text);
-            });
+            if (!reader_) learn(asked, rig);
+            post(
+                [text = json_text(ready_message(*reader_))](const Listener& to) { to.tell(text); });
             look(asked);
         } catch (const Interrupted&) {
         } catch (const std::exception& error) {
@@ -99,7 +126,6 @@ void StudioPerform::receive(const JsonCursor& message,
 
 void StudioPerform::learn(const std::stop_token& asked,
                           const std::shared_ptr<const scene::RigFiles>& rig) {
-    perform::RigPictures pictures(rig);
     const ProgressMonitor monitor{
         .progress =
             [this](double fraction, const std::string& what) {
@@ -110,13 +136,13 @@ void StudioPerform::learn(const std::stop_token& asked,
                 post([text = json_text(told)](const Listener& to) { to.tell(text); });
             },
         .stopped = [&] { return asked.stop_requested(); }};
-    columns_ = std::make_shared<const perform::Columns>(
-        perform::channel_columns(pictures, *network_, monitor));
+    reader_ =
+        std::make_shared<const perform::RigReader>(perform::learn_rig(rig, *networks_, monitor));
 }
 
 void StudioPerform::look(const std::stop_token& asked) {
     using Clock = std::chrono::steady_clock;
-    perform::Performer performer(network_, columns_);
+    perform::Performer performer(networks_, reader_);
     while (!asked.stop_requested()) {
         CameraPicture picture;
         {
@@ -124,7 +150,7 @@ void StudioPerform::look(const std::stop_token& asked) {
             if (!came_.wait(lock, asked, [&] { return waiting_.has_value(); })) return;
             picture = std::move(*waiting_);
             waiting_.reset();
-            if (std::exchange(calibrate_, false)) performer.calibrate();
+            calibrate(std::exchange(calibrate_, ""), performer);
         }
         const Clock::time_point begin = Clock::now();
         const perform::Performed seen = performer.see(picture.image, picture.t_s);
@@ -135,6 +161,7 @@ void StudioPerform::look(const std::stop_token& asked) {
                                        {"score", std::round(100 * seen.score) / 100},
                                        {"calibrating", seen.calibrating},
                                        {"calibrated", performer.calibrated()},
+                                       {"ranges", ranges_json(performer)},
                                        {"values", values},
                                        {"ms", std::round(took.count())}});
         post([text = json_text(told), values = seen.values](const Listener& to) {
@@ -156,7 +183,7 @@ void StudioPerform::finish() {
     thread_.reset();  // asks it to stop, and waits
     const std::lock_guard lock(mutex_);
     waiting_.reset();
-    calibrate_ = false;
+    calibrate_.clear();
 }
 
 }  // namespace risorius::cli

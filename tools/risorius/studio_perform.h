@@ -35,15 +35,16 @@ class StudioPerform {
         std::function<void(const std::map<std::string, double>& values)> values;
     };
 
-    /// Reads {"type": "camera", "do": "start" | "calibrate" | "stop"}. "start" learns the rig once, in some seconds; meanwhile and
+    /// Reads {"type": "camera", "do": "start" | "calibrate" | "stop"}, and with "calibrate" a "pose": "rest" or a name of
+    /// perform::ranges(). "start" learns the rig once, in a minute or two; meanwhile and
     /// then it tells {"type": "camera", "state": "learning", "fraction": 0.3, "text": "AU12.l"} and {"state": "ready",
     /// "channels": [{"name": "AU12.l", "reliable": true, "error": 0.06}]}, or {"state": "failed", "text": ...}. Throws Error for
     /// another message, and when the weights of the network are missing.
     void receive(const JsonCursor& message, const std::shared_ptr<const scene::RigFiles>& rig,
                  serve::WebServer& server, Listener listener);
 
-    /// Looks at a picture; {"type": "performed", "score": 0.98, "calibrated": true, "values": {...}, "ms": 31} says that the next one
-    /// may come. A picture that comes earlier takes the place of the one that waits.
+    /// Looks at a picture; {"type": "performed", "score": 0.98, "calibrated": true, "ranges": {"smile": "known"}, "values": {...},
+    /// "ms": 31} says that the next one may come. A picture that comes earlier takes the place of the one that waits.
     void picture(const std::string& bytes);
 
     /// Another rig is open, or the studio ends.
@@ -57,13 +58,14 @@ class StudioPerform {
     serve::WebServer* server_ = nullptr;
     std::shared_ptr<const Listener>
         listener_;  // null: stopped; only the thread of the server changes it
-    std::shared_ptr<const landmarks::FaceNetwork> network_;
-    std::shared_ptr<const perform::Columns> columns_;
+    std::shared_ptr<const perform::Networks> networks_;
+    std::shared_ptr<const perform::RigReader> reader_;
     const scene::RigFiles* learned_ = nullptr;
     std::mutex mutex_;
     std::condition_variable_any came_;
     std::optional<CameraPicture> waiting_;
-    bool calibrate_ = false;
+    std::string
+        calibrate_;  // what is to be calibrated next: "rest", the name of a range, or nothing
     std::unique_ptr<std::jthread> thread_;
 };
 

@@ -19,6 +19,12 @@ constexpr double kAnchorSpacing_m = 7e-3, kNodeSpacing_m = 16e-3, kEarSpacing_m 
 constexpr double kBelowChin_m = 0.045, kEarRadius_m = 0.034;
 constexpr double kSimilar = 0.6;  // cosine between normals that may belong together
 constexpr double kEarDeviation_m = 3e-3;
+// Along the skin, a node is drawn to skin that is as near and has as similar a normal, beyond what it sees of its own head. On flat skin
+// this says nothing; at a nose, a lid or a lip, what the network sees is off by more.
+constexpr double kOfNormals_m = 10e-3;  // what a difference of normals of 1 rad is worth
+constexpr double kSimilarWidth_m = 4e-3, kAlongSkin = 1.3;
+constexpr double kFaceSpacing_m = 9e-3, kAboveNasion_m = 0.03, kAroundFace_m = 0.01;
+constexpr double kLessTrust = 1.5;  // factor of the deviation of what is seen, once there are nodes
 
 struct Scale {
     double deviation_m;  // of a node from the skin it is drawn to
@@ -69,12 +75,127 @@ std::optional<Match> match(const ShownHead& head, const Vec3& p, const Vec3& nor
     return Match{found->point, there, std::sqrt(found->squared_distance)};
 }
 
+/// The vertices of a skin in cells, to find those around a point.
+class SkinCells {
+  public:
+    explicit SkinCells(const ShownHead& head) : head_(head) {
+        area_.assign(static_cast<std::size_t>(head.positions.rows()), 0);
+        for (Eigen::Index f = 0; f < head.skin.rows(); ++f) {
+            const auto corner = [&](int k) -> Vec3 {
+                return head.positions.row(head.skin(f, k)).transpose();
+            };
+            const double area = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 6;
+            for (int k = 0; k < 3; ++k) area_[static_cast<std::size_t>(head.skin(f, k))] += area;
+        }
+        for (std::size_t v = 0; v < area_.size(); ++v)
+            if (area_[v] > 0)
+                cells_[cell_of(head.positions.row(static_cast<Eigen::Index>(v)).transpose())]
+                    .push_back(static_cast<int>(v));
+    }
+
+    /// The mean of the skin around p, weighted by how near it is and how similar its normal; nothing when there is none.
+    std::optional<Vec3> similar(const Vec3& p, const Vec3& normal, double width) const {
+        const std::array<int, 3> middle = cell_of(p);
+        Vec3 sum = Vec3::Zero();
+        double weights = 0;
+        for (int x = -1; x <= 1; ++x)
+            for (int y = -1; y <= 1; ++y)
+                for (int z = -1; z <= 1; ++z) {
+                    const auto cell = cells_.find({middle[0] + x, middle[1] + y, middle[2] + z});
+                    if (cell == cells_.end()) continue;
+                    for (const int v : cell->second) {
+                        const Vec3 at = head_.positions.row(v).transpose(),
+                                   there = head_.normals.row(v).transpose();
+                        const double cosine = there.dot(normal);
+                        if (!(cosine > kSimilar)) continue;
+                        const double price =
+                            (at - p).squaredNorm() + kOfNormals_m * kOfNormals_m * 2 * (1 - cosine);
+                        const double weight = area_[static_cast<std::size_t>(v)] *
+                                              std::exp(-price / (2 * width * width));
+                        sum += weight * (at - p);
+                        weights += weight;
+                    }
+                }
+        if (!(weights > 1e-12 * width * width)) return std::nullopt;
+        return sum / weights;
+    }
+
+  private:
+    static constexpr double kCell_m = 12e-3;
+    static std::array<int, 3> cell_of(const Vec3& p) {
+        return {static_cast<int>(std::floor(p.x() / kCell_m)),
+                static_cast<int>(std::floor(p.y() / kCell_m)),
+                static_cast<int>(std::floor(p.z() / kCell_m))};
+    }
+
+    const ShownHead& head_;
+    std::vector<double> area_;
+    std::map<std::array<int, 3>, std::vector<int>> cells_;
+};
+
 /// The template after the similarity, and what is known of its displacements.
 struct Moving {
     Points nodes, normals;  // of the skin
-    Points anchors, seen;   // points of the network, and their displacements
+    Points own;             // SkinCells::similar() of each node on its own head
+    std::vector<bool> in_face;
+    Points anchors, seen;  // points of the network, and their displacements
     std::vector<double> anchor_deviation;
 };
+
+/// The vertices of the face from the forehead to the chin, ascending.
+std::vector<int> front_of(const TemplateHead& known, const std::vector<int>& skin) {
+    const auto at = [&](const char* id) { return known.landmarks.at(id); };
+    std::vector<int> out;
+    for (const int v : skin) {
+        const Vec3 p = known.head.positions.row(v).transpose();
+        if (p.z() > at("ex_l").z() - kAroundFace_m && p.y() > at("me").y() - kAroundFace_m &&
+            p.y() < at("n").y() + kAboveNasion_m)
+            out.push_back(v);
+    }
+    return out;
+}
+
+/// Spreads nodes over the template's skin, more densely over its ears and its face.
+void add_nodes(const TemplateHead& known, const Similarity& to_new, Moving& out) {
+    std::vector<int> skin;
+    std::vector<bool> used(static_cast<std::size_t>(known.head.positions.rows()), false);
+    const double lowest = known.landmarks.at("me").y() - kBelowChin_m;
+    for (Eigen::Index f = 0; f < known.head.skin.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int v = known.head.skin(f, k);
+            if (used[static_cast<std::size_t>(v)] || known.head.positions(v, 1) < lowest) continue;
+            used[static_cast<std::size_t>(v)] = true;
+            skin.push_back(v);
+        }
+    // Ears vary on a small scale.
+    std::vector<int> ears;
+    for (const int v : skin) {
+        const Vec3 p = known.head.positions.row(v).transpose();
+        for (const char* id : {"t_l", "t_r"})
+            if ((p - ear_of(known, id)).norm() < kEarRadius_m) ears.push_back(v);
+    }
+    const std::vector<int> front = front_of(known, skin);
+    std::vector<int> nodes = spread_out(known.head.positions, ears, kEarSpacing_m);
+    spread_out_more(known.head.positions, front, kFaceSpacing_m, nodes);
+    spread_out_more(known.head.positions, skin, kNodeSpacing_m, nodes);
+    out.nodes.resize(static_cast<Eigen::Index>(nodes.size()), 3);
+    out.normals.resize(out.nodes.rows(), 3);
+    out.own.resize(out.nodes.rows(), 3);
+    const SkinCells cells(known.head);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const Eigen::Index row = static_cast<Eigen::Index>(i);
+        const Vec3 own = cells
+                             .similar(known.head.positions.row(nodes[i]).transpose(),
+                                      known.head.normals.row(nodes[i]).transpose(),
+                                      kSimilarWidth_m / to_new.scale)
+                             .value_or(Vec3::Zero());
+        out.in_face.push_back(std::find(front.begin(), front.end(), nodes[i]) != front.end());
+        out.own.row(row) = (to_new.scale * (to_new.rotation * own)).transpose();
+        out.nodes.row(row) = to_new(known.head.positions.row(nodes[i]).transpose()).transpose();
+        out.normals.row(row) =
+            (to_new.rotation * known.head.normals.row(nodes[i]).transpose()).transpose();
+    }
+}
 
 Moving moving(const TemplateHead& known, const Similarity& to_new,
               const std::vector<SeenPoint>& face) {
@@ -105,39 +226,31 @@ Moving moving(const TemplateHead& known, const Similarity& to_new,
         out.anchor_deviation.push_back(std::hypot(kSeenDeviation_m, views));
     }
 
-    std::vector<int> skin;
-    std::vector<bool> used(static_cast<std::size_t>(known.head.positions.rows()), false);
-    const double lowest = known.landmarks.at("me").y() - kBelowChin_m;
-    for (Eigen::Index f = 0; f < known.head.skin.rows(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const int v = known.head.skin(f, k);
-            if (used[static_cast<std::size_t>(v)] || known.head.positions(v, 1) < lowest) continue;
-            used[static_cast<std::size_t>(v)] = true;
-            skin.push_back(v);
-        }
-    // Ears vary on a small scale.
-    std::vector<int> ears;
-    for (const int v : skin) {
-        const Vec3 p = known.head.positions.row(v).transpose();
-        for (const char* id : {"t_l", "t_r"})
-            if ((p - ear_of(known, id)).norm() < kEarRadius_m) ears.push_back(v);
-    }
-    std::vector<int> nodes = spread_out(known.head.positions, ears, kEarSpacing_m);
-    spread_out_more(known.head.positions, skin, kNodeSpacing_m, nodes);
-    out.nodes.resize(static_cast<Eigen::Index>(nodes.size()), 3);
-    out.normals.resize(out.nodes.rows(), 3);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const Eigen::Index row = static_cast<Eigen::Index>(i);
-        out.nodes.row(row) = to_new(known.head.positions.row(nodes[i]).transpose()).transpose();
-        out.normals.row(row) =
-            (to_new.rotation * known.head.normals.row(nodes[i]).transpose()).transpose();
-    }
+    add_nodes(known, to_new, out);
     return out;
 }
 
-/// Where the template's ear has to be shifted: over a grid of 48 x 64 mm, then finer around the best.
-Vec3 ear_shift(const TemplateHead& known, const Similarity& to_new, const Vec3& ear,
-               const ShownHead& head) {
+/// How the template's ear has to be moved after the similarity: shifted, made larger, and tilted about the axis through both ears.
+struct EarMotion {
+    Vec3 shift = Vec3::Zero();
+    double larger = 1, tilt = 0;  // tilt: rad
+
+    /// `ear`: its middle, and `p`: a point on it, both after the similarity.
+    Vec3 displacement(const Vec3& ear, const Vec3& p) const {
+        return shift + larger * (Eigen::AngleAxisd(tilt, Vec3::UnitX()) * (p - ear)) - (p - ear);
+    }
+
+    /// The same for the ear of the other side.
+    EarMotion mirrored() const { return {Vec3(-shift.x(), shift.y(), shift.z()), larger, tilt}; }
+};
+
+/// The skin around an ear, after the similarity.
+struct EarPatch {
+    Vec3 middle;
+    std::vector<Vec3> points, normals;
+};
+
+EarPatch ear_patch(const TemplateHead& known, const Similarity& to_new, const Vec3& ear) {
     std::vector<int> patch;
     for (Eigen::Index f = 0; f < known.head.skin.rows(); ++f)
         for (int k = 0; k < 3; ++k) {
@@ -147,57 +260,86 @@ Vec3 ear_shift(const TemplateHead& known, const Similarity& to_new, const Vec3& 
         }
     std::sort(patch.begin(), patch.end());
     patch.erase(std::unique(patch.begin(), patch.end()), patch.end());
-    patch = spread_out(known.head.positions, patch, 4e-3);
-    constexpr double kReach_m = 12e-3, kPriceOfShift = 0.1;
-    const auto misfit = [&](const Vec3& shift) {
-        // Without a price, the ear of a head that ends behind it would fit a smooth cheek better.
-        double sum = kPriceOfShift * shift.squaredNorm() * static_cast<double>(patch.size());
-        for (const int v : patch) {
-            const Vec3 p = to_new(known.head.positions.row(v).transpose()) + shift;
-            const Vec3 normal = to_new.rotation * known.head.normals.row(v).transpose();
-            const auto found = match(head, p, normal, kReach_m);
-            const double d = found ? found->distance : kReach_m;
-            sum += d * d;
-        }
-        return sum;
-    };
-    Vec3 best = Vec3::Zero();
-    double least = std::numeric_limits<double>::infinity();
-    for (const double step : {8e-3, 4e-3, 2e-3}) {
-        const Vec3 middle = best;
-        const int reach_y = step == 8e-3 ? 4 : 1, reach_z = step == 8e-3 ? 3 : 1,
-                  reach_x = step == 8e-3 ? 1 : 1;
-        for (int x = -reach_x; x <= reach_x; ++x)
-            for (int y = -reach_y; y <= reach_y; ++y)
-                for (int z = -reach_z; z <= reach_z; ++z) {
-                    const Vec3 shift = middle + step * Vec3(x, y, z);
-                    const double now = misfit(shift);
-                    if (now < least) {
-                        least = now;
-                        best = shift;
-                    }
-                }
+    EarPatch out{to_new(ear), {}, {}};
+    for (const int v : spread_out(known.head.positions, patch, 4e-3)) {
+        out.points.push_back(to_new(known.head.positions.row(v).transpose()));
+        out.normals.push_back(to_new.rotation * known.head.normals.row(v).transpose());
     }
-    return best;
+    return out;
 }
 
-/// Adds the ears to what is known: their nodes move with the shift of their ear.
+/// Mean squared distance of an ear from the skin, and a price.
+double misfit_of(const EarPatch& ear, const EarMotion& motion, const ShownHead& head) {
+    constexpr double kReach_m = 12e-3, kPriceOfShift = 0.1, kPriceOfTurn_m2 = 1e-5;
+    // Without a price, the ear of a head that ends behind it would fit a smooth cheek better.
+    const double size = std::log(motion.larger);
+    const double price = kPriceOfShift * motion.shift.squaredNorm() +
+                         kPriceOfTurn_m2 * (size * size + motion.tilt * motion.tilt);
+    const Eigen::AngleAxisd turn(motion.tilt, Vec3::UnitX());
+    double sum = 0;
+    for (std::size_t i = 0; i < ear.points.size(); ++i) {
+        const Vec3& p = ear.points[i];
+        const auto found =
+            match(head, p + motion.displacement(ear.middle, p), turn * ear.normals[i], kReach_m);
+        const double d = found ? found->distance : kReach_m;
+        sum += d * d;
+    }
+    return price + sum / static_cast<double>(ear.points.size());
+}
+
+/// The motions of the left and of the right ear: shifts over a grid of 48 x 64 mm, then with sizes and tilts, finer around the best. Both
+/// ears move alike at first, as one alone may fit a wrong place.
+std::array<EarMotion, 2> ear_motions(const std::array<EarPatch, 2>& ears, const ShownHead& head) {
+    const auto search = [](const EarMotion& from, double step_m, const std::array<int, 3>& reach,
+                           const std::vector<double>& sizes, const std::vector<double>& tilts,
+                           const auto& misfit) {
+        EarMotion best = from;
+        double least = std::numeric_limits<double>::infinity();
+        for (const double size : sizes)
+            for (const double tilt : tilts)
+                for (int x = -reach[0]; x <= reach[0]; ++x)
+                    for (int y = -reach[1]; y <= reach[1]; ++y)
+                        for (int z = -reach[2]; z <= reach[2]; ++z) {
+                            const EarMotion motion{from.shift + step_m * Vec3(x, y, z),
+                                                   from.larger * size, from.tilt + tilt};
+                            const double now = misfit(motion);
+                            if (now < least) {
+                                least = now;
+                                best = motion;
+                            }
+                        }
+        return best;
+    };
+    const auto both = [&](const EarMotion& motion) {
+        return misfit_of(ears[0], motion, head) + misfit_of(ears[1], motion.mirrored(), head);
+    };
+    EarMotion left = search({}, 8e-3, {1, 4, 3}, {1}, {0}, both);
+    left = search(left, 4e-3, {1, 1, 1}, {0.9, 1, 1.12, 1.25}, {-0.15, 0, 0.15}, both);
+    std::array<EarMotion, 2> out{left, left.mirrored()};
+    for (std::size_t side = 0; side < 2; ++side)
+        out[side] =
+            search(out[side], 2e-3, {1, 1, 1}, {0.95, 1, 1.05}, {-0.07, 0, 0.07},
+                   [&](const EarMotion& motion) { return misfit_of(ears[side], motion, head); });
+    return out;
+}
+
+/// Adds the ears to what is known: their nodes move with their ear.
 void add_ears(const TemplateHead& known, const Similarity& to_new, const ShownHead& head,
               Moving& moving) {
-    for (const char* id : {"t_l", "t_r"}) {
-        const Vec3 ear = ear_of(known, id), shift = ear_shift(known, to_new, ear, head);
+    const std::array<EarPatch, 2> ears{ear_patch(known, to_new, ear_of(known, "t_l")),
+                                       ear_patch(known, to_new, ear_of(known, "t_r"))};
+    const std::array<EarMotion, 2> motions = ear_motions(ears, head);
+    for (std::size_t side = 0; side < 2; ++side)
         for (Eigen::Index i = 0; i < moving.nodes.rows(); ++i) {
-            if ((moving.nodes.row(i).transpose() - to_new(ear)).norm() >
-                to_new.scale * kEarRadius_m)
-                continue;
+            const Vec3 node = moving.nodes.row(i).transpose();
+            if ((node - ears[side].middle).norm() > to_new.scale * kEarRadius_m) continue;
             const Eigen::Index row = moving.anchors.rows();
             moving.anchors.conservativeResize(row + 1, 3);
             moving.seen.conservativeResize(row + 1, 3);
-            moving.anchors.row(row) = moving.nodes.row(i);
-            moving.seen.row(row) = shift.transpose();
+            moving.anchors.row(row) = node.transpose();
+            moving.seen.row(row) = motions[side].displacement(ears[side].middle, node).transpose();
             moving.anchor_deviation.push_back(kEarDeviation_m);
         }
-    }
 }
 
 Points stacked(const Points& a, const Points& b) {
@@ -211,8 +353,10 @@ SmoothField registered(const Moving& moving, const ShownHead& head) {
     const Points x = stacked(moving.anchors, moving.nodes);
     SmoothField field(moving.anchors, moving.anchor_deviation);
     field.set(moving.seen);
+    const SkinCells cells(head);
     for (const Scale& scale : kScales) {
         std::vector<double> deviation = moving.anchor_deviation;
+        for (double& d : deviation) d *= kLessTrust;
         deviation.resize(static_cast<std::size_t>(x.rows()), scale.deviation_m);
         SmoothField next(x, deviation);
         for (int round = 0; round < scale.rounds; ++round) {
@@ -224,7 +368,15 @@ SmoothField registered(const Moving& moving, const ShownHead& head) {
                 const auto found =
                     match(head, here + moved, moving.normals.row(i).transpose(), scale.reach_m);
                 Vec3 to = moved;
-                if (found) to += found->normal * found->normal.dot(found->at - here - moved);
+                if (found) {
+                    to += found->normal * found->normal.dot(found->at - here - moved);
+                    const auto similar = cells.similar(found->at, moving.normals.row(i).transpose(),
+                                                       kSimilarWidth_m);
+                    if (similar && moving.in_face[static_cast<std::size_t>(i)]) {
+                        const Vec3 beyond = *similar - moving.own.row(i).transpose();
+                        to += kAlongSkin * (beyond - found->normal * found->normal.dot(beyond));
+                    }
+                }
                 drawn.row(i) = to.transpose();
             }
             next.set(stacked(moving.seen, drawn));

@@ -4,9 +4,11 @@
 ///
 /// 1. A similarity of the points that the network sees on both heads (an affine map would misplace the ears).
 /// 2. A smooth field of what remains, each point as uncertain as the views differ.
-/// 3. The ears: the template's are shifted over a grid to where they fit best.
+/// 3. The ears: the template's are shifted over a grid, made larger and tilted to where both fit best.
 /// 4. Non-rigid registration of the rest: nodes spread over the template's skin are drawn to the nearest skin with a similar
 ///    normal, point to plane, in three scales (Amberg, Romdhani, Vetter 2007, Optimal step nonrigid ICP, for the idea of scales).
+///    In the face they are also drawn along the skin: the mean of the skin around them, weighted by distance and by normal, is
+///    compared with the same of their own head (as in coherent point drift: Myronenko, Song 2010).
 #pragma once
 
 #include <map>

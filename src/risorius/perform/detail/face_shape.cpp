@@ -26,12 +26,12 @@ const std::array<Vec2, 6> kSearchedAt{Vec2(0.5, 0.5), Vec2(0.5, 0.35), Vec2(0.3,
 constexpr int kLeftOuter = 263, kRightOuter = 33;
 constexpr std::array kStable{10,  109, 338, 67,  297, 103, 332, 54,  284, 21,  251, 162,
                              389, 127, 356, 234, 454, 168, 6,   197, 195, 122, 351};
-struct Eye {
+struct Corners {
     int outer, inner;
-    std::array<int, 3> above, below;
 };
-constexpr Eye kLeftEye{263, 362, {387, 386, 385}, {373, 374, 380}};
-constexpr Eye kRightEye{33, 133, {160, 159, 158}, {144, 145, 153}};
+constexpr std::array<Corners, 2> kEyes{{{263, 362}, {33, 133}}};
+constexpr double kAroundEye = 2.3;  // side of the square around an eye, as MediaPipe cuts it
+constexpr double kEyeWidth = 0.35;  // of an eye, of the distance between the outer corners
 
 /// The colour at a place between pixels; outside of the picture it is black.
 void sample(const Image& picture, double x, double y, float* rgb) {
@@ -53,18 +53,17 @@ Vec2 in_picture(const Crop& crop, const Vec2& at) {
     return crop.centre + crop.side_px * Vec2(c * at.x() - s * at.y(), s * at.x() + c * at.y());
 }
 
-landmarks::Picture cut(const Image& picture, const Crop& crop) {
-    constexpr int kSide = landmarks::kFacePicture_px;
-    landmarks::Picture out(kSide, kSide, 3);
+landmarks::Picture cut(const Image& picture, const Crop& crop, int side) {
+    landmarks::Picture out(side, side, 3);
     // Of a large square, several places of the picture are the mean of a pixel.
-    const int samples = std::clamp(static_cast<int>(crop.side_px / kSide + 0.5), 1, 4);
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
+    const int samples = std::clamp(static_cast<int>(crop.side_px / side + 0.5), 1, 4);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
             float* to = out.at(y, x);
             for (int k = 0; k < 3; ++k) to[k] = 0;
             for (int i = 0; i < samples * samples; ++i) {
-                const Vec2 place((x + (i % samples + 0.5) / samples) / kSide - 0.5,
-                                 (y + (i / samples + 0.5) / samples) / kSide - 0.5);
+                const Vec2 place((x + (i % samples + 0.5) / samples) / side - 0.5,
+                                 (y + (i / samples + 0.5) / samples) / side - 0.5);
                 const Vec2 from = in_picture(crop, place);
                 float rgb[3];
                 sample(picture, from.x() - 0.5, from.y() - 0.5, rgb);
@@ -92,10 +91,25 @@ Crop around(const std::vector<Vec3>& points) {
     return out;
 }
 
-Vec3 mean_of(const std::vector<Vec3>& points, const std::array<int, 3>& which) {
-    Vec3 sum = Vec3::Zero();
-    for (const int i : which) sum += points[static_cast<std::size_t>(i)] / 3;
-    return sum;
+/// The square around an eye, upright along the line of its corners.
+Crop around_eye(const std::vector<Vec3>& points, bool left) {
+    const Corners& eye = kEyes[left ? 0 : 1];
+    const Vec3 outer = points[static_cast<std::size_t>(eye.outer)],
+               inner = points[static_cast<std::size_t>(eye.inner)];
+    const Vec3 across = left ? outer - inner : inner - outer;
+    Crop out;
+    out.centre = {0.5 * (outer.x() + inner.x()), -0.5 * (outer.y() + inner.y())};
+    out.side_px = kAroundEye * across.head<2>().norm();
+    out.roll = std::atan2(-across.y(), across.x());
+    return out;
+}
+
+landmarks::Picture mirrored(const landmarks::Picture& picture) {
+    landmarks::Picture out(picture.height, picture.width, picture.channels);
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x)
+            std::copy_n(picture.at(y, picture.width - 1 - x), picture.channels, out.at(y, x));
+    return out;
 }
 
 /// R = Ry(yaw) Rx(-pitch) Rz(-roll)
@@ -105,10 +119,26 @@ HeadAngles angles_of(const Mat3& r) {
             std::atan2(-r(1, 0), r(1, 1)) / kDegree};
 }
 
+/// The points of the network at brows, nose and mouth, which channels move.
+const std::vector<int>& moving_points() {
+    static const std::vector<int> points{
+        70,  63,  105, 66,  107, 55,  65,  52,  53,  46,  300, 293, 334, 296, 336, 285, 295, 282,
+        283, 276, 9,   8,   108, 151, 337, 69,  299, 104, 333, 68,  298, 193, 417, 221, 441, 222,
+        442, 223, 443, 224, 444, 225, 445, 189, 413, 1,   2,   4,   5,   19,  94,  98,  97,  99,
+        129, 102, 49,  48,  64,  219, 218, 237, 44,  45,  275, 274, 457, 438, 439, 278, 279, 331,
+        294, 327, 326, 328, 358, 114, 343, 128, 357, 217, 437, 198, 420, 131, 360, 203, 423, 165,
+        391, 167, 393, 164, 61,  146, 91,  181, 84,  17,  314, 405, 321, 375, 291, 409, 270, 269,
+        267, 0,   37,  39,  40,  185, 78,  95,  88,  178, 87,  14,  317, 402, 318, 324, 308, 415,
+        310, 311, 312, 13,  82,  81,  80,  191, 152, 148, 377, 176, 400, 149, 378, 175, 199, 200,
+        18,  83,  313, 57,  287, 212, 432, 216, 436, 206, 426, 92,  322, 43,  273};
+    return points;
+}
+
 }  // namespace
 
 SeenFace look_at(const landmarks::FaceNetwork& network, const Image& picture, const Crop& crop) {
-    const landmarks::FaceAnswer answer = network.look_at(cut(picture, crop));
+    const landmarks::FaceAnswer answer =
+        network.look_at(cut(picture, crop, landmarks::kFacePicture_px));
     SeenFace out;
     out.score = answer.score;
     constexpr double kSide = landmarks::kFacePicture_px;
@@ -142,17 +172,45 @@ Crop crop_of_look(const Crop& crop, int look) {
     return out;
 }
 
-SeenFace look_closely(const landmarks::FaceNetwork& network, const Image& picture,
-                      const Crop& crop) {
-    SeenFace out = look_at(network, picture, crop);
-    for (int look = 1; look < kLooks; ++look) {
-        const SeenFace one = look_at(network, picture, crop_of_look(crop, look));
-        for (std::size_t k = 0; k < out.points.size(); ++k) out.points[k] += one.points[k];
-        out.score += one.score;
+void look_at_eyes(const landmarks::EyeNetwork& network, const Image& picture, SeenFace& face) {
+    constexpr double kSide = landmarks::kEyePicture_px;
+    for (const bool left : {true, false}) {
+        std::vector<Vec2>& eye = face.eyes[left ? 0 : 1];
+        eye.assign(landmarks::kEyePoints, Vec2::Zero());
+        const landmarks::Picture one =
+            cut(picture, around_eye(face.points, left), landmarks::kEyePicture_px);
+        // The network has learnt left eyes; the mean with the mirrored picture is calmer for either.
+        for (const bool mirror : {false, true}) {
+            const std::vector<Vec2> answer = network.look_at(mirror ? mirrored(one) : one);
+            for (std::size_t k = 0; k < answer.size(); ++k) {
+                Vec2 at = answer[k] / kSide - Vec2::Constant(0.5);
+                if (mirror) at.x() = -at.x();
+                eye[k] += 0.5 * kAroundEye * at;
+            }
+        }
     }
-    for (Vec3& p : out.points) p /= kLooks;
-    out.score /= kLooks;
+}
+
+std::vector<SeenFace> looks_at(const landmarks::FaceNetwork& network, const Image& picture,
+                               const Crop& crop) {
+    std::vector<SeenFace> out;
+    for (int look = 0; look < kLooks; ++look)
+        out.push_back(look_at(network, picture, crop_of_look(crop, look)));
+    return out;
+}
+
+SeenFace mean_look(const Networks& networks, const Image& picture,
+                   const std::vector<SeenFace>& looks) {
+    SeenFace out = looks.front();
+    const double count = static_cast<double>(looks.size());
+    for (std::size_t k = 0; k < out.points.size(); ++k) {
+        out.points[k].setZero();
+        for (const SeenFace& look : looks) out.points[k] += look.points[k] / count;
+    }
+    out.score = 0;
+    for (const SeenFace& look : looks) out.score += look.score / count;
     out.next = around(out.points);
+    look_at_eyes(networks.eye, picture, out);
     return out;
 }
 
@@ -173,47 +231,36 @@ std::optional<SeenFace> find_face(const landmarks::FaceNetwork& network, const I
     return best;
 }
 
-ShapeChange change_of(const std::vector<Vec3>& rest, const std::vector<Vec3>& now) {
+ShapeChange change_of(const SeenFace& rest, const SeenFace& now) {
     std::vector<Vec3> from, to;
     for (const int i : kStable) {
-        from.push_back(rest[static_cast<std::size_t>(i)]);
-        to.push_back(now[static_cast<std::size_t>(i)]);
+        from.push_back(rest.points[static_cast<std::size_t>(i)]);
+        to.push_back(now.points[static_cast<std::size_t>(i)]);
     }
     const landmarks::Similarity motion = landmarks::nearest_similarity(from, to),
                                 back = motion.inverse();
-    const double unit = eye_distance(rest);
+    const double unit = eye_distance(rest.points);
     ShapeChange out;
     out.head = angles_of(motion.rotation);
-    for (std::size_t k = 0; k < rest.size(); ++k)
-        out.moved.push_back((back(now[k]) - rest[k]) / unit);
-    out.left_open = eye_aspect(now, true) / eye_aspect(rest, true);
-    out.right_open = eye_aspect(now, false) / eye_aspect(rest, false);
+    for (std::size_t k = 0; k < rest.points.size(); ++k)
+        out.moved.push_back((back(now.points[k]) - rest.points[k]) / unit);
+    for (std::size_t side = 0; side < 2; ++side)
+        for (std::size_t k = 0; k < std::min(rest.eyes[side].size(), now.eyes[side].size()); ++k)
+            out.eyes[side].push_back(kEyeWidth * (now.eyes[side][k] - rest.eyes[side][k]));
     return out;
 }
 
-const std::vector<int>& moving_points() {
-    static const std::vector<int> points{
-        70,  63,  105, 66,  107, 55,  65,  52,  53,  46,  300, 293, 334, 296, 336, 285, 295, 282,
-        283, 276, 9,   8,   108, 151, 337, 69,  299, 104, 333, 68,  298, 193, 417, 221, 441, 222,
-        442, 223, 443, 224, 444, 225, 445, 189, 413, 1,   2,   4,   5,   19,  94,  98,  97,  99,
-        129, 102, 49,  48,  64,  219, 218, 237, 44,  45,  275, 274, 457, 438, 439, 278, 279, 331,
-        294, 327, 326, 328, 358, 114, 343, 128, 357, 217, 437, 198, 420, 131, 360, 203, 423, 165,
-        391, 167, 393, 164, 61,  146, 91,  181, 84,  17,  314, 405, 321, 375, 291, 409, 270, 269,
-        267, 0,   37,  39,  40,  185, 78,  95,  88,  178, 87,  14,  317, 402, 318, 324, 308, 415,
-        310, 311, 312, 13,  82,  81,  80,  191, 152, 148, 377, 176, 400, 149, 378, 175, 199, 200,
-        18,  83,  313, 57,  287, 212, 432, 216, 436, 206, 426, 92,  322, 43,  273};
-    return points;
+Eigen::VectorXd numbers_of(const ShapeChange& change) {
+    std::vector<double> out;
+    const auto add = [&](const Vec2& p) { out.insert(out.end(), {p.x(), p.y()}); };
+    for (const int i : moving_points()) add(change.moved[static_cast<std::size_t>(i)].head<2>());
+    for (const std::vector<Vec2>& eye : change.eyes)
+        for (const Vec2& p : eye) add(p);
+    return Eigen::Map<const Eigen::VectorXd>(out.data(), static_cast<Eigen::Index>(out.size()));
 }
 
 double eye_distance(const std::vector<Vec3>& points) {
     return (points[kLeftOuter] - points[kRightOuter]).norm();
-}
-
-double eye_aspect(const std::vector<Vec3>& points, bool left) {
-    const Eye& eye = left ? kLeftEye : kRightEye;
-    const auto at = [&](int i) { return points[static_cast<std::size_t>(i)]; };
-    return (mean_of(points, eye.above) - mean_of(points, eye.below)).norm() /
-           (at(eye.outer) - at(eye.inner)).norm();
 }
 
 }  // namespace risorius::perform
