@@ -175,7 +175,7 @@ template <class Real, class Lane>
 }
 
 // Energy of a tet, and its first Piola-Kirchhoff stress P, both times V. M is the mean J of its fan.
-//   P = mu F C + K (M - 1 + c min(0, J - J_c)) cof F,   C = F^T F - I
+//   P = mu F C + K ((1 - s) (M - 1) + s (J - 1) + c min(0, J - J_c)) cof F,   C = F^T F - I
 // On return, `cof` is P.
 template <class Real, class Lane>
 [[gnu::always_inline]] inline Lane stress_of(const Lane (&h)[3][3], const Lane& j_minus_1,
@@ -362,8 +362,8 @@ Mat3 TetSolid::cauchy_stress_pa(const Points& x, int tet) const {
     const Mat3 f = deformation_gradient(x, tet);
     const double j = f.determinant(), bulk = bulk_[tet];
     if (j == 0) return Mat3::Zero();
-    const double pressure =
-        bulk * (mean_volume_ratio(x, tet) - 1) + kHardens * bulk * std::min(0.0, j - kCrushed);
+    const double change = (1 - kOwnVolume) * (mean_volume_ratio(x, tet) - 1) + kOwnVolume * (j - 1);
+    const double pressure = bulk * (change + kHardens * std::min(0.0, j - kCrushed));
     return mu_[tet] / j * f * (f.transpose() * f - Mat3::Identity()) * f.transpose() +
            pressure * Mat3::Identity();
 }

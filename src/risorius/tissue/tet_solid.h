@@ -2,7 +2,7 @@
 /// \file
 /// Soft tissue as tetrahedra: the metric and volume energy of a nearly incompressible solid.
 ///
-///     E = sum V [ mu/4 |F^T F - I|^2 + K/2 (M - 1)^2 + c K/2 min(0, J - J_c)^2 ]
+///     E = sum V [ mu/4 |F^T F - I|^2 + K/2 ((1 - s) (M - 1)^2 + s (J - 1)^2) + c K/2 min(0, J - J_c)^2 ]
 ///
 /// - F: deformation gradient; J = det F; G: gradients of the shape functions in a tet, 1/m
 /// - M: mean of J over the tets of a fan (tet_fans.h), weighted by V K; J itself for a tet that is in no fan. The three tets of a prism
@@ -12,7 +12,8 @@
 ///   analysis of nearly incompressible solids, Int. J. Numer. Meth. Engng 62, 353-383
 /// - V: rest volume, m^3
 /// - mu, K: shear modulus and modulus of the volume term (Lame's first parameter, not the bulk modulus), Pa
-/// - J_c, c: kCrushed and kHardens, without unit
+/// - s, J_c, c: kOwnVolume, kCrushed and kHardens, without unit. With s = 0, tets would change their volume at the cost of their
+///   neighbours, and a held face would tremble
 ///
 /// J is signed, so the energy of an inverted tet is not zero. Below J_c the tissue hardens, so that contact forces are balanced
 /// before a tet inverts.
@@ -37,9 +38,9 @@ namespace risorius::tissue {
 /// Energy and forces of soft tissue. An object keeps scratch arrays, so only one thread at a time may use it.
 class TetSolid {
   public:
-    static constexpr double kOwnVolume = 0.25;
-    static constexpr double kCrushed = 0.3;  ///< J_c
-    static constexpr double kHardens = 4;    ///< c
+    static constexpr double kOwnVolume = 0.25;  ///< s
+    static constexpr double kCrushed = 0.3;     ///< J_c
+    static constexpr double kHardens = 4;       ///< c
 
     /// Moduli are given per tet. Throws std::invalid_argument when a tet has no positive rest volume.
     TetSolid(const Tets& tets, const Points& rest, const Eigen::VectorXd& mu_pa,

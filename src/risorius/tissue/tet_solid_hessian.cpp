@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The second derivative of TetSolid. The part of each tet, in the frame of its principal stretches, is that of
-//   psi_i = mu s_i (s_i^2 - 1) + p s_j s_k,   p = K (M - 1 + c min(0, J - J_c)),
-// where M is held. M, the mean J of a fan, changes with all its nodes: this adds K_fan (dM/dx) (dM/dx)^T, which is never negative.
+//   psi_i = mu s_i (s_i^2 - 1) + p s_j s_k,   p = K ((1 - s) (M - 1) + s (J - 1) + c min(0, J - J_c)),
+// where M is held. M, the mean J of a fan, changes with all its nodes: this adds (1 - s) K_fan (dM/dx) (dM/dx)^T, which is never
+// negative.
 #include <algorithm>
 #include <array>
 
@@ -14,9 +15,12 @@ namespace risorius::tissue {
 namespace {
 
 detail::StretchModes modes_of(const Vec3& s, double mean_minus_1, double mu, double at_rest) {
-    const double crushed = std::min(0.0, s[0] * s[1] * s[2] - TetSolid::kCrushed);
-    const double pressure = at_rest * (mean_minus_1 + TetSolid::kHardens * crushed);
-    const double bulk = crushed < 0 ? at_rest * TetSolid::kHardens : 0.0;
+    constexpr double kOwn = TetSolid::kOwnVolume;
+    const double volume = s[0] * s[1] * s[2];
+    const double crushed = std::min(0.0, volume - TetSolid::kCrushed);
+    const double pressure =
+        at_rest * ((1 - kOwn) * mean_minus_1 + kOwn * (volume - 1) + TetSolid::kHardens * crushed);
+    const double bulk = at_rest * (kOwn + (crushed < 0 ? TetSolid::kHardens : 0.0));
     detail::StretchModes modes;
     for (int k = 0; k < 3; ++k) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -78,7 +82,8 @@ void TetSolid::add_hessian(const Points& x, solve::Curvature curvature,
         for (int a = 0; a < fan.nodes; ++a)
             for (int b = 0; b <= a; ++b)
                 hessian.add(fan.node[a], fan.node[b],
-                            fan.bulk * of_mean.row(first + a).transpose() * of_mean.row(first + b));
+                            (1 - kOwnVolume) * fan.bulk * of_mean.row(first + a).transpose() *
+                                of_mean.row(first + b));
     }
 }
 
