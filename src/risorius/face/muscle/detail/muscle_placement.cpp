@@ -142,7 +142,9 @@ MusclePlacement place_muscles(const rig::Head& head, const rig::RigDescription& 
                 const double fibre_m = muscle->rest_stretch * muscle->optimal_length_m;
                 fibre.rest_stretch = muscle->rest_stretch;
                 fibre.pennation_rad = muscle->pennation_deg * std::numbers::pi / 180;
-                fibre.tendon_fraction = muscle->tendon_slack_m / (muscle->tendon_slack_m + fibre_m);
+                // A muscle without a length of its fibres in the table has no tendon
+                fibre.tendon_fraction =
+                    fibre_m > 0 ? muscle->tendon_slack_m / (muscle->tendon_slack_m + fibre_m) : 0.0;
             }
             out.points.insert(out.points.end(), points.begin(), points.end());
             out.fibres.push_back(fibre);
