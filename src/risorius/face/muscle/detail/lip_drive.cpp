@@ -11,8 +11,7 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kTurn_rad =
-    1.2;  // rotation of a red lip that is rolled in: little red is seen then
+constexpr double kTurn_rad = 1.2;         // rotation of a red lip that is rolled in
 constexpr double kFlattened = 0.45;       // fraction of its height over the teeth that it loses
 constexpr double kTurn_pa_per_m = 1.5e6;  // per area, of the skin and of the middle layer
 constexpr double kPush_pa_per_m = 1.5e6;  // a thickened muscle hardly yields to the lip
