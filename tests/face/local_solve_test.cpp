@@ -48,16 +48,14 @@ TEST(LocalSolve, AStepThatHasConvergedStaysWhereItIs) {
 }
 
 TEST(LocalSolve, TheMouthsOwnIterationsBringItNearerToTheConvergedStep) {
-    constexpr int kSteps = 18;  // later the face may have come to the other of two equilibria
+    constexpr int kSteps = 24;
     const auto skin = [](const Quality& quality) {
         return played(quality, kSteps).diagnostics().skin_nodes();
     };
     const Points converged = skin(with_mouth(1000, 0, 1e-9));
-    // Nine nodes of ten: single nodes of lips snap over each other a step sooner or later.
+    // Once it has come: on the way single nodes of lips snap over each other a step sooner or later.
     const auto off = [&](int mouth_passes) {
-        Eigen::VectorXd apart = (skin(with_mouth(6, mouth_passes, 0)) - converged).rowwise().norm();
-        std::sort(apart.begin(), apart.end());
-        return apart[apart.size() * 9 / 10];
+        return (skin(with_mouth(6, mouth_passes, 0)) - converged).norm();
     };
     EXPECT_LT(off(10), 0.7 * off(0));
 }

@@ -101,7 +101,7 @@ TEST(Motion, AHeldExpressionDoesNotTremble) {
         face.step(drive);
         const double fastest =
             (face.diagnostics().skin_nodes() - before).rowwise().norm().maxCoeff() / kStep_s;
-        EXPECT_LT(fastest, 0.5e-3) << unit << " in " << quality << ", m/s";
+        EXPECT_LT(fastest, 0.2e-3) << unit << " in " << quality << ", m/s";
     };
     for (const char* unit : {"AU12", "AU17", "AU27"}) held(unit, moving_face(), "preview");
     Face finer = adult_face(quality_named("video"));

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "cache_setting.h"
 #include "face/adult_face.h"
@@ -320,6 +322,43 @@ TEST(Tissue, RestIsFreeOfContactForces) {
     Points gradient = Points::Zero(adult_tissue().mesh.nodes.rows(), 3);
     contacts.add_energy(adult_tissue().mesh.nodes, gradient);
     EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-9);
+}
+
+// A plane that leaps while lips slide keeps a held face from resting.
+TEST(Tissue, APlaneOfALipTurnsAsSlowlyAsTheLipsSlide) {
+    const Tissue& tissue = adult_tissue();
+    const ContactSearch search(tissue.head, tissue.jaw, tissue.shell, tissue.mesh, tissue.lids,
+                               5e6);
+    constexpr double kStep_m = 0.05e-3;
+    const auto slid = [&](int steps) {
+        Points x = tissue.mesh.nodes;
+        for (std::size_t v = 0; v < tissue.shell.vertex.size(); ++v)
+            if (tissue.shell.over_bite_m[v] < 0)
+                for (Layer layer : {kDeep, kMiddle, kSkin})
+                    x.row(node_of(static_cast<int>(v), layer)) +=
+                        steps * kStep_m * Vec3(0.6, 0.5, -0.62).transpose();
+        return x;
+    };
+    const auto past_rest_m = [&](int steps) {
+        const Points x = slid(steps);
+        std::map<int, double> gaps;
+        for (const auto& pair :
+             search.find(x, Rigid::Identity(), {Mat3::Identity(), Mat3::Identity()}))
+            if (pair.body == kLipBody && pair.fraction > 0.5)
+                gaps[pair.slot] = tissue::Contacts::gap(pair, x) - pair.rest_gap_m;
+        return gaps;
+    };
+    std::map<int, double> before = past_rest_m(0);
+    EXPECT_GT(before.size(), 40u);
+    for (int step = 1; step <= 80; ++step) {
+        std::map<int, double> now = past_rest_m(step);
+        for (const auto& [slot, gap] : now) {
+            const auto known = before.find(slot);
+            if (known == before.end()) continue;
+            EXPECT_LT(std::abs(gap - known->second), 4 * kStep_m) << slot << " at " << step;
+        }
+        before = std::move(now);
+    }
 }
 
 // Of the adult with bundles alone

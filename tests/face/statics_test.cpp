@@ -67,9 +67,7 @@ TEST(FaceStatics, AFaceGoesBackToAnEquilibriumThatWasKeptAndIsAsIfItHadDoneNothi
     const track::Drive purse = with_unit("AU24"), pull = some_drive();
     track::Drive more = pull;
     more.excitation *= 1.1;
-    // The face of 300 vertices has two equilibria, which differ by 0.7 mm beside the left corner of the mouth.
-    const Quality finer{.name = "coarse", .shell_vertices = 600};
-    Face finder = adult_face(finer), other = adult_face(finer);
+    Face finder = adult_face(kCoarse), other = adult_face(kCoarse);
     finder.solve_equilibrium(pull.excitation, pull);
     const KeptEquilibrium kept = finder.statics().keep();
     const Points vertices = finder.pose().vertices;

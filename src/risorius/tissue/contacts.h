@@ -5,8 +5,8 @@
 ///
 ///   gap = (x_a - sum w_i x_i - p) . n     d = gap - g - s     E = kc/2 min(0, d)^2 + Es(gap)
 ///
-/// x_a is the node that touches, x_i are the other nodes and kc is the stiffness. The plane is carried by up to four other
-/// nodes with weights w_i; then p is a constant offset from them, usually zero. Or it is carried by none; then p is a point of
+/// x_a is the node that touches, x_i are the other nodes and kc is the stiffness. The plane is carried by up to six other
+/// nodes with weights w_i; then p is a constant offset from them. Or it is carried by none; then p is a point of
 /// the plane. n is the normal of the plane. g is the rest gap, min(0, gap in the rest pose), so that the rest pose is free of
 /// force.
 ///
@@ -40,11 +40,12 @@ namespace risorius::tissue {
 /// The list of contacts, their energy, and the shifts and gaps that are remembered from solve to solve.
 class Contacts {
   public:
+    static constexpr int kMostOthers = 6;
     struct Contact {
         int node = 0;                      ///< index of node a
-        int others[4] = {0, 0, 0, 0};      ///< indices of the nodes that carry the plane
-        double weights[4] = {0, 0, 0, 0};  ///< of the others, sum 1
-        int count = 0;                     ///< number of other nodes, 0..4
+        int others[kMostOthers] = {};      ///< indices of the nodes that carry the plane
+        double weights[kMostOthers] = {};  ///< of the others, sum 1
+        int count = 0;                     ///< number of other nodes, 0..kMostOthers
         Vec3 point = Vec3::Zero();         ///< p, m
         Vec3 normal = Vec3::UnitZ();       ///< n, length 1, towards node a
         double rest_gap_m = 0;             ///< g <= 0

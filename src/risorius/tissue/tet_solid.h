@@ -38,7 +38,7 @@ namespace risorius::tissue {
 /// Energy and forces of soft tissue. An object keeps scratch arrays, so only one thread at a time may use it.
 class TetSolid {
   public:
-    static constexpr double kOwnVolume = 0.25;  ///< s
+    static constexpr double kOwnVolume = 0.1;  ///< s
     static constexpr double kCrushed = 0.3;     ///< J_c
     static constexpr double kHardens = 4;       ///< c
 

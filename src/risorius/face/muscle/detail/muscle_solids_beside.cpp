@@ -10,7 +10,6 @@ namespace risorius::face {
 
 namespace {
 
-constexpr const char* kLips = "orbicularis_oris_";
 constexpr double kBorder = -1e-6;  // a point on a face belongs to a tetrahedron on either side
 
 /// Returns the tetrahedron that contains p; -1 outside of the tissue.
@@ -31,7 +30,6 @@ int tet_at(const Vec3& p, const Points& nodes, const Tets& tets) {
 void MuscleSolids::add_sheaths(const Points& nodes, const Tets& tets,
                                Eigen::VectorXd& mu_pa) const {
     for (const Part& part : parts_) {
-        if (part.place().muscle->id.starts_with(kLips)) continue;
         for (const int node : part.place().node) {
             if (on_bone(node)) continue;
             const int tet = tet_at(rest_.row(node).transpose(), nodes, tets);

@@ -245,7 +245,7 @@ void ContactSearch::find_lip_node(const LipNode& node, const std::vector<LipNode
     contact.node = node.node;
     contact.normal.setZero();
     Vec3 off = Vec3::Zero(), rest_off = Vec3::Zero(), rest_normal = Vec3::Zero();
-    double weights = 0, stiffness = 0;
+    double weights = 0, gap = 0, rest_gap = 0, stiffness = 0;
     for (std::size_t k = 0; k < kLipNeighbours; ++k) {
         const LipNode& o = other[nearest[k].second];
         // The weight of a node that is about to be replaced is zero
@@ -254,8 +254,12 @@ void ContactSearch::find_lip_node(const LipNode& node, const std::vector<LipNode
         contact.others[k] = o.node;
         contact.weights[k] = w;
         weights += w;
-        off += w * (p - x.row(o.node).transpose());
-        rest_off += w * (rest_.row(node.node) - rest_.row(o.node)).transpose();
+        const Vec3 from = p - x.row(o.node).transpose();
+        const Vec3 rest_from = (rest_.row(node.node) - rest_.row(o.node)).transpose();
+        off += w * from;
+        rest_off += w * rest_from;
+        gap += w * from.dot(facing[nearest[k].second]);
+        rest_gap += w * rest_from.dot(o.normal);
         contact.normal += w * facing[nearest[k].second];
         rest_normal += w * o.normal;
         stiffness += w * o.stiffness;
@@ -263,6 +267,8 @@ void ContactSearch::find_lip_node(const LipNode& node, const std::vector<LipNode
     for (std::size_t k = 0; k < kLipNeighbours; ++k) contact.weights[k] /= weights;
     contact.normal.normalize();
     rest_normal.normalize();
+    gap /= weights;
+    rest_gap /= weights;
     const auto beside = [&](const Vec3& d, const Vec3& normal, double from_m) {
         return 1.0 -
                geom::smoothstep(from_m, from_m + lip_aside_m_, (d - d.dot(normal) * normal).norm());
@@ -272,10 +278,10 @@ void ContactSearch::find_lip_node(const LipNode& node, const std::vector<LipNode
     inside *= beside(off, contact.normal, lip_aside_m_);
     if (inside <= 0) return;
     contact.count = kLipNeighbours;
+    contact.point = (off.dot(contact.normal) - gap) * contact.normal;
     // Nodes that are inside at rest keep their full plane, otherwise there would be a force at rest
-    contact.rest_gap_m =
-        beside(rest_off, rest_normal, 2 * lip_aside_m_) * std::min(0.0, rest_off.dot(rest_normal));
-    if (off.dot(contact.normal) - contact.rest_gap_m > kFarEnough_m) return;
+    contact.rest_gap_m = beside(rest_off, rest_normal, 2 * lip_aside_m_) * std::min(0.0, rest_gap);
+    if (gap - contact.rest_gap_m > kFarEnough_m) return;
     // The stiffness is weighted like the plane: if it depended on which nodes are nearest, it would jump as lips slide
     contact.stiffness_n_per_m =
         inside * kLipStiffness * std::min(node.stiffness, stiffness / weights);

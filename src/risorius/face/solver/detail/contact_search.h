@@ -7,6 +7,9 @@
 /// of the surface, so that they turn smoothly as tissue slides over it; with the nearest point alone, held poses would tremble. The
 /// planes of the lips turn with the lips: those at the rim face the other rim, those on the red lip face forwards. A plane acts only on
 /// nodes in front of it, so that one lip can move behind the other.
+///
+/// The distance from a lip is a mean over the tangent planes of its nearest nodes (Oztireli, Guennebaud & Gross 2009, Computer Graphics
+/// Forum 28(2)). A node has no weight when another one is about to take its place.
 #pragma once
 
 #include <array>
@@ -72,7 +75,7 @@ class ContactSearch {
         double rest_gap;
     };
     struct Search;  // one call of find()
-    static constexpr int kLipNeighbours = 3;
+    static constexpr int kLipNeighbours = tissue::Contacts::kMostOthers;
     using NearestFew = std::array<std::pair<double, int>, kLipNeighbours + 1>;
 
     static BonePoint blended_plane(const Vec3& p, double reach, const std::vector<int>& candidates,
