@@ -81,9 +81,12 @@ TEST(CollagenFibres, LeaveTheFaceAtRestAndItsEquilibriaFindable) {
     const auto corner_mm = [&](const FacePose& pose, const char* corner) {
         return 1e3 * (at(pose.vertices, corner) - at(face.head().vertices, corner)).norm();
     };
-    // The left corner changes, the right one hardly
-    EXPECT_GT(std::abs(corner_mm(smile, "ch_l") - corner_mm(plain_smile, "ch_l")), 1);
-    EXPECT_NEAR(corner_mm(smile, "ch_r"), corner_mm(plain_smile, "ch_r"), 0.6);
+    // The left corner goes another way. The right one, to which the ring of the lips ties it, changes less
+    const auto change_mm = [&](const char* corner) {
+        return std::abs(corner_mm(smile, corner) - corner_mm(plain_smile, corner));
+    };
+    EXPECT_GT(change_mm("ch_l"), 1);
+    EXPECT_LT(change_mm("ch_r"), 0.7 * change_mm("ch_l"));
     // Steps come to the same place
     const track::Drive drive = with_unit("AU12");
     face.start(always(neutral()));

@@ -40,9 +40,9 @@ MeshBelly::MeshBelly(const SolidPart& place, const SolidPlacement& nodes,
         std::min(std::max(kOwnVolume * tension_pa, 10 * solid.shear_pa), 0.5 * solid.volume_pa);
     tissue::TetFans apart;  // each tetrahedron keeps its own volume
     for (int t = 0; t < static_cast<int>(count); ++t) apart.alone.push_back(t);
-    shape_ = std::make_unique<tissue::TetSolid>(
-        place_.tets, rest_, Eigen::VectorXd::Constant(count, solid.shear_pa),
-        Eigen::VectorXd::Constant(count, own), apart);
+    shape_ = std::make_unique<tissue::TetSolid>(place_.tets, rest_,
+                                                Eigen::VectorXd::Constant(count, solid.shear_pa),
+                                                Eigen::VectorXd::Constant(count, own), apart);
     volumes_ = std::make_unique<tissue::NodeVolumes>(place_.tets, rest_, solid.volume_pa - own);
     if (solid.is_stiffer_along())
         along_.emplace(tissue::strain_points(place_.tets, rest_, place_.fibres),
