@@ -40,7 +40,7 @@ struct SpeakArguments {
     fs::path script;
     speech::SpeechStyle style;
     double gestures = 0.6, blinks = 1;
-    int passes = 3;
+    int passes = 4;
 };
 
 /// TEXT is what to say, a file of text, or an utterance.
