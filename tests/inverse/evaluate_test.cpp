@@ -269,5 +269,22 @@ TEST(ReadUnits, TheAdultsUnitsGoAsFarAndAsEvenlyAsTheTableAsks) {
             ": expected an action unit with landmark targets, found \"AU99\"");
 }
 
+TEST(ReadUnits, AWinkIsPicturedOnOneSide) {
+    const TemporaryFolder folder;
+    read_units({.rig = kRoot / "rigs/adult/rig.json",
+                .out = folder.path() / "report",
+                .only = {"AU46"},
+                .steps = false});
+    const Image rest = media::read_png(folder.path() / "report/pictures/neutral.png"),
+                wink = media::read_png(folder.path() / "report/pictures/AU46.png");
+    std::array<int, 2> changed{};  // on the subject's right and left
+    for (int y = 0; y < rest.height_px; ++y)
+        for (int x = 0; x < rest.width_px; ++x)
+            if (std::abs(*rest.pixel(x, y) - *wink.pixel(x, y)) > 24)
+                ++changed[x < rest.width_px / 2 ? 0 : 1];
+    EXPECT_GT(changed[1], 100);
+    EXPECT_LT(20 * changed[0], changed[1]);
+}
+
 }  // namespace
 }  // namespace risorius::inverse

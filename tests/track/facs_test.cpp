@@ -197,6 +197,10 @@ TEST(Facs, BrokenTablesAreRefusedWithPlaceAndReason) {
         "facs.json:/action_units/AU29/jaw/protrude_mm: expected [0, 9], found 12");
     EXPECT_EQ(reading(R"({"action_units": {"AU1": {"name": "x", "sided": "yes"}}})"),
               "facs.json:/action_units/AU1/sided: expected true or false, found \"yes\"");
+    EXPECT_EQ(
+        reading(R"({"action_units": {"AU55": {"name": "x", "sided": false, "pictured_on": "l"}}})"),
+        "facs.json:/action_units/AU55/pictured_on: expected no side for a unit that cannot be "
+        "restricted to one, found \"l\"");
     EXPECT_EQ(reading(R"({"action_units": {}, "arkit": {"jawOpen": {"units": {"AU26": 1}}}})"),
               "facs.json:/arkit/jawOpen/units/AU26: expected an action unit of the rig's FACS "
               "table, found \"AU26\"");

@@ -19,6 +19,7 @@
 #include "risorius/report/atomic_file.h"
 #include "risorius/report/atomic_folder.h"
 #include "risorius/report/contact_sheet.h"
+#include "risorius/rig/expression_drive.h"
 #include "risorius/scene/expression_score.h"
 #include "risorius/scene/rig_files.h"
 #include "risorius/scene/scene_from_rig.h"
@@ -119,19 +120,33 @@ std::string numbers_of(const scene::UnitReading& one) {
     return text;
 }
 
+// The pose that a coder sees: that which was read, or that of one side.
+face::FacePose pictured(const scene::UnitReading& one, face::Face& face,
+                        const rig::RigDescription& rig) {
+    const track::ActionUnit& unit = *rig.facs.find(one.unit);
+    if (!unit.pictured_on) return one.pose;
+    const std::string id = one.unit + (*unit.pictured_on == Side::kLeft ? ".l" : ".r");
+    const track::Drive drive = rig::clamped_drive(*rig::expansion_at(rig, id, 1), rig.channels());
+    const track::Drive rest =
+        rig::clamped_drive(track::Expansion::none(rig.channels()), rig.channels());
+    face.start([&](double) { return rest; });
+    face.solve_equilibrium(drive.excitation, drive);
+    return face.pose();
+}
+
 // Draws pictures/ and contact_sheet.png, and adds their names to `files`.
-std::map<std::string, UnitPictures> draw_units(const UnitReadings& readings, face::Face& face,
-                                               const face::FacePose& neutral,
-                                               const render::Scene& scene, const std::string& name,
-                                               const fs::path& folder,
-                                               std::vector<std::string>& files,
-                                               const ProgressMonitor& monitor) {
+std::map<std::string, UnitPictures> draw_units(
+    const UnitReadings& readings, face::Face& face, const face::FacePose& neutral,
+    const render::Scene& scene, const rig::RigDescription& rig, const fs::path& folder,
+    std::vector<std::string>& files, const ProgressMonitor& monitor) {
     fs::create_directories(folder / "pictures");
     render::OffscreenView view(scene, {.width_px = kWidth_px, .height_px = kHeight_px});
     const Eigen::VectorXd area =
         scene::vertex_areas(face.surfaces().simulated_skin(), face.head().vertices);
-    report::ContactSheet sheet{
-        name + ", action units at intensity 1", {"neutral", "unit", "motion"}, {}, moved_scale()};
+    report::ContactSheet sheet{rig.name + ", action units at intensity 1",
+                               {"neutral", "unit", "motion"},
+                               {},
+                               moved_scale()};
     const auto write = [&](const Image& image, const std::string& file) {
         media::write_png(image, folder / file);
         files.push_back(file);
@@ -146,8 +161,9 @@ std::map<std::string, UnitPictures> draw_units(const UnitReadings& readings, fac
     for (const scene::UnitReading& one : readings.units) {
         monitor.report(static_cast<double>(out.size()) / static_cast<double>(readings.units.size()),
                        "pictures of " + one.unit);
-        const Image shown = view.draw(scene::pose_for_view(one.pose)),
-                    motion = view.draw(moved(one.pose, neutral.vertices, area));
+        const face::FacePose pose = pictured(one, face, rig);
+        const Image shown = view.draw(scene::pose_for_view(pose)),
+                    motion = view.draw(moved(pose, neutral.vertices, area));
         out[one.unit] = {write(shown, "pictures/" + one.unit + ".png"),
                          write(motion, "pictures/" + one.unit + "_moved.png")};
         sheet.rows.push_back({one.unit + " " + one.name,
@@ -168,7 +184,7 @@ void write_report(const UnitReadings& readings, const UnitOptions& options,
         scene::add_wrinkles(face.surfaces().wrinkle_lines(), scene);
         const double middle = options.kit ? from + 0.2 * (1 - from) : 1;
         if (options.pictures)
-            pictures = draw_units(readings, face, neutral, scene, files.rig.name, folder, written,
+            pictures = draw_units(readings, face, neutral, scene, files.rig, folder, written,
                                   monitor.subrange(from, middle));
         if (options.kit) {
             std::vector<std::string> units;

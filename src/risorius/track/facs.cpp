@@ -75,7 +75,7 @@ ActionUnit read_unit(const JsonCursor& json, const std::string& id, const FacsRa
                      const ChannelTable& channels) {
     json.allow_keys({"name", "sided", "muscles", "jaw", "mouth_pressure_pa", "tongue_protrusion_mm",
                      "head", "eyes", "unsupported", "landmark_targets_mm", "activation_at",
-                     "channels_at", "seen_with", "cues"});
+                     "channels_at", "seen_with", "cues", "pictured_on"});
     ActionUnit unit;
     unit.id = id;
     unit.name = json.at("name").string();
@@ -96,6 +96,10 @@ ActionUnit read_unit(const JsonCursor& json, const std::string& id, const FacsRa
     if (const auto v = json.find("channels_at")) unit.curve.channels = read_intensity_curve(*v);
     if (const auto v = json.find("unsupported")) unit.unsupported = v->string();
     if (const auto v = json.find("cues")) unit.cues = v->string();
+    if (const auto v = json.find("pictured_on")) {
+        if (!unit.sided) v->fail("no side for a unit that cannot be restricted to one");
+        unit.pictured_on = v->one_of({"l", "r"}) == "l" ? Side::kLeft : Side::kRight;
+    }
     if (const auto v = json.find("landmark_targets_mm"))
         for (const std::string& landmark : v->keys())
             unit.landmark_targets_mm.emplace_back(landmark, v->at(landmark).vec3());

@@ -51,6 +51,8 @@ struct ActionUnit {
     UnitCurves curve;  ///< from the intensity to the activation of its muscles and its channels
     std::string unsupported;  ///< why this face cannot show the unit; empty when it can
     std::string cues;         ///< what a coder looks for, in sentences; empty in older tables
+    std::optional<Side>
+        pictured_on;  ///< the side that pictures for coders show alone, as of a wink
     /// Displacements that the unit should cause: a landmark on the left side or the midline, and its displacement.
     std::vector<std::pair<std::string, Vec3>> landmark_targets_mm;
     /// Units without which it is not seen, as AU8 is not between closed lips. The targets begin at their pose.
