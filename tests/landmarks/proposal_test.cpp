@@ -170,8 +170,10 @@ TEST(KnownHeads, TheirLandmarksAreChecked) {
         std::ofstream(folder / "l.json")
             << R"({"format": "risorius-landmarks", "version": 1, "landmarks": )" << landmarks
             << "}";
-        const std::string whole =
-            message_of([&] { known_landmarks(folder / "l.json", mesh, atlas); });
+        const std::string whole = message_of([&] {
+            known_landmarks({.mesh = "plain_head.obj", .landmarks = folder / "l.json"}, mesh,
+                            atlas);
+        });
         return whole.substr(whole.find("l.json"));
     };
     EXPECT_EQ(message(R"({"prn": {"vertex": 100000000}})"),

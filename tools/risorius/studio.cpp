@@ -296,7 +296,8 @@ void Studio::new_head(serve::Peer& peer, const std::string& type, const JsonCurs
         return tell_all(
             json_text(json_object({{"type", "landmarks_found"}, {"state", "running"}})));
     }
-    message.allow_keys({"type", "id", "landmarks", "replace", "quick"});
+    message.allow_keys(
+        {"type", "id", "landmarks", "replace", "quick", "cut_lips", "repair", "parts"});
     const fs::path file = head_->write_landmarks(message);
     const std::string name = file.lexically_proximate(folder_).generic_string();
     tell_all(json_text(json_object({{"type", "landmarks_saved"}, {"path", name}})));

@@ -241,7 +241,7 @@ std::string Session::state() const {
                      {"recording", recording_},
                      {"computing", (playing_ && !take_.has(frame_)) || wanted_ >= 0},
                      {"computed_s", static_cast<double>(std::max(0L, take_.valid() - 1)) / 60},
-                     {"resting", !playing_ && quiet_ >= kQuietTicks},
+                     {"resting", !playing_ && wanted_ < 0 && quiet_ >= kQuietTicks},
                      {"dirty", document_.dirty()},
                      {"overrides", overrides},
                      {"pulls", pulls},
