@@ -236,14 +236,16 @@ TEST(Session, AnEditGoesOnFromAMomentBeforeIt) {
     script["channels"]["AU12"]["keys"][3][1] = 0.4;
     Session fresh(inputs(script));
     compute(fresh, 0.95);
-    EXPECT_EQ(session.pose().substr(8), fresh.pose().substr(8));  // the number of the tick differs
+    EXPECT_TRUE(session.pose().substr(8) ==
+                fresh.pose().substr(8));  // the number of the tick differs
 }
 
 // While a key is dragged, the face is held with the drive of the playhead. Then it is what the script makes of it.
 TEST(Session, AnEditShowsTheHeldMomentAndThenTheScript) {
     Json script = smile();
     script["duration_s"] = 1.0;
-    script["channels"]["AU12"]["keys"] = Json::parse("[[0, 0], [0.2, 0.6], [0.7, 0.6], [0.9, 0]]");
+    script["channels"]["AU12"]["keys"] =
+        Json::parse("[[0, 0], [0.2, 0.6], [0.5, 0.6], [0.7, 0.6], [0.9, 0]]");
     const auto key = [](int number, double value) {
         const std::string path = "/channels/AU12/keys/" + std::to_string(number) + "/1";
         return message(
@@ -261,19 +263,19 @@ TEST(Session, AnEditShowsTheHeldMomentAndThenTheScript) {
     EXPECT_TRUE(session.tick()) << "it moves at once";
     EXPECT_FALSE(state_of(session)["resting"].get<bool>());
     for (int i = 0; i < 300 && !state_of(session)["resting"].get<bool>(); ++i) session.tick();
-    EXPECT_TRUE(state_of(session)["resting"].get<bool>());
+    EXPECT_TRUE(state_of(session)["resting"].get<bool>()) << session.state();
     EXPECT_NEAR(state_of(session)["computed_s"].get<double>(), 0.3, 1e-9);
     script["channels"]["AU12"]["keys"][1][1] = 0.9;
     Session fresh(inputs(script));
     compute(fresh);
     const std::string now = session.pose();
-    EXPECT_EQ(now.substr(8), fresh.pose().substr(8));
-    EXPECT_NE(now.substr(8), former.substr(8));
-    // An edit after the playhead changes nothing here.
-    session.receive(key(3, 0.5));
+    EXPECT_TRUE(now.substr(8) == fresh.pose().substr(8));
+    EXPECT_FALSE(now.substr(8) == former.substr(8));
+    // An edit after the playhead changes nothing here. The slope at a key depends on its neighbours.
+    session.receive(key(4, 0.5));
     session.tick();
     EXPECT_TRUE(state_of(session)["resting"].get<bool>());
-    EXPECT_EQ(session.pose().substr(8), now.substr(8));
+    EXPECT_TRUE(session.pose().substr(8) == now.substr(8));
 }
 
 TEST(Session, SaysWhatIsWrongAndGoesOn) {

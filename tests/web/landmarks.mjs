@@ -138,6 +138,16 @@ await test("a fit from them gives a rig that smiles", async () => {
   await shot(page, "newhead-smiles");
 });
 
+await test("a rig that has never spoken gets its mouths while the page goes on", async () => {
+  await page.locator("#add").selectOption("say");
+  await page.locator("#say-text").fill("Mama.");
+  await page.locator("#say-form button.primary").click();
+  await until(page, () => /mouths of this rig are simulated first/.test(document.querySelector("#message").textContent));
+  await page.evaluate(() => window.studio.ask({ type: "override", channel: "AU2", value: 0.5 }));
+  await until(page, () => window.studio.state().overrides.AU2 === 0.5);
+  assert.match(await page.evaluate(() => window.studio.ask({ type: "say", text: "Mama." })), /expected mouths that are simulated/);
+});
+
 await test("groups whose names say nothing get their roles in the page, and the fit gets them", async () => {
   mkdirSync(join(folder, "carla"));
   const groups = [...new Set(mesh.split("\n").filter((line) => /^[go] /.test(line)).map((line) => line.slice(2).trim()))];
@@ -158,7 +168,7 @@ await test("groups whose names say nothing get their roles in the page, and the 
   await page.locator("#newhead-groups select").nth(groups.indexOf("eye_l")).focus();
   await shot(page, "newhead-parts");
   // What the page may ask for: roles and groups that exist.
-  for (const [parts, wrong] of [[{ skin: ["Mesh_99"] }, /group of the mesh/], [{ nose: ["Mesh_00"] }, /role of a part/], [{ skin: "Mesh_00" }, /list/]])
+  for (const [parts, wrong] of [[{ skin: ["Mesh_99"] }, /group of the mesh/], [{ nose: ["Mesh_00"] }, /role of a part/], [{ skin: "Mesh_00" }, /an array/]])
     assert.match(await page.evaluate((p) => window.studio.ask({ type: "find_landmarks", parts: p }), parts), wrong);
   const landmarks = Object.fromEntries(required.map((id) => [id, truth[id]]));
   await page.evaluate((places) => localStorage.setItem(Object.keys(localStorage).find((one) => /^risorius parts .*carla/.test(one)).replace("parts", "landmarks"), JSON.stringify(places)), Object.fromEntries(Object.entries(landmarks).map(([id, at]) => [id, { at, found: "placed" }])));

@@ -13,7 +13,6 @@
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/report/atomic_file.h"
-#include "risorius/talk/say_edit.h"
 #include "risorius/talk/say_event.h"
 #include "risorius/view/document.h"
 #include "tools/risorius/project_files.h"
@@ -112,6 +111,7 @@ void Studio::run(serve::WebServer& server, const std::function<bool()>& stopped)
     export_->finish();
     perform_.finish();
     thumbnails_.finish();
+    voice_.finish();
 }
 
 Studio::Page* Studio::page_of(const serve::Peer& peer) {
@@ -256,34 +256,6 @@ void Studio::thumbnail(const JsonCursor& message) {
     about.erase("id");
     thumbnails_.ask(listed_script(message), std::move(about), *server_,
                     [this](const std::string& text) { tell_all(text); });
-}
-
-/// The face says a text from the playhead on, at once: its closures are not checked before.
-void Studio::say(serve::Peer& peer, const JsonCursor& message) {
-    message.allow_keys({"type", "id", "text", "voice", "program"});
-    talk::VoiceRequest request;
-    request.text = message.at("text").string();
-    if (const auto voice = message.find("voice")) request.language = voice->string();
-    if (const auto program = message.find("program")) request.program = program->string();
-    const Json state = json_or_null(script_.session->state()),
-               script = json_or_null(script_.session->script_text());
-    const double at_s = state["t_s"].get<double>();
-    const talk::SayEdit said = talk::say_edit(script, request, at_s);
-    const std::vector<std::string> replies = script_.session->receive(
-        json_text(json_object({{"type", "edit"}, {"edits", said.edits}, {"gesture", ""}})));
-    bool done = true;
-    for (const std::string& reply : replies) {
-        const bool document = json_or_null(reply)["type"] == "document";
-        if (document)
-            tell_document(reply);
-        else
-            peer.send_text(reply);
-        done = done && document;
-    }
-    if (!done) return;
-    script_.session->receive(json_text(json_object({{"type", "seek"}, {"t_s", at_s}})));
-    script_.session->receive(json_text(json_object({{"type", "play"}})));
-    pose_waits_ = true;
 }
 
 void Studio::new_head(serve::Peer& peer, const std::string& type, const JsonCursor& message) {

@@ -28,8 +28,7 @@ Performer::Performer(std::shared_ptr<const Networks> networks,
       reader_(std::move(reader)),
       shown_(ranges().size()),
       range_states_(ranges().size(), RangeState::kNone),
-      readout_(reader_->readout),
-      curves_(reader_->curves) {}
+      readout_(reader_->readout) {}
 
 void Performer::calibrate() {
     calibrating_ = true;
@@ -86,7 +85,6 @@ void Performer::gather(double t_s) {
     shown_.assign(ranges().size(), {});
     range_states_.assign(ranges().size(), RangeState::kNone);
     readout_ = reader_->readout;
-    curves_ = reader_->curves;
     filters_.clear();
     last_.clear();
 }
@@ -134,12 +132,6 @@ void Performer::correct_readout() {
                                       reader_->full(c, static_cast<Eigen::Index>(range)));
     }
     readout_ = corrected_readout(reader_->readout, x, wanted);
-    // The changed readout has other curves than the first one. Their form is that of the rig; at full strength they read what is wanted.
-    curves_ = reader_->curves_of(readout_);
-    for (Eigen::Index k = 0; k < x.cols(); ++k)
-        for (Eigen::Index c = 0; c < wanted.rows(); ++c)
-            if (wanted(c, k) > 0)
-                curves_.row(c) *= wanted(c, k) / curves_(c, RigReader::kLevels - 1);
 }
 
 Performed Performer::see(const Image& picture, double t_s) {
@@ -169,7 +161,7 @@ Performed Performer::see(const Image& picture, double t_s) {
     };
     for (std::size_t c = 0; c < reader_->channels.size(); ++c) {
         const CameraChannel& channel = reader_->channels[c];
-        out.raw.push_back(RigReader::value(curves_, c, read[static_cast<Eigen::Index>(c)]));
+        out.raw.push_back(reader_->value(c, read[static_cast<Eigen::Index>(c)]));
         if (!channel.reliable) continue;
         out.values[channel.name] =
             std::clamp(filtered(channel.name, out.raw[c], kOfChannels), 0.0, 1.0);

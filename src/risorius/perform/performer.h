@@ -69,7 +69,7 @@ class Performer {
     Eigen::VectorXd shown_sum_;           ///< of gathered_ pictures
     std::vector<Eigen::VectorXd> shown_;  ///< by range; empty: not known
     std::vector<RangeState> range_states_;
-    Eigen::MatrixXd readout_, curves_;  ///< W', and its curves on the rig
+    Eigen::MatrixXd readout_;  ///< W'
     std::map<std::string, OneEuro> filters_;
 };
 

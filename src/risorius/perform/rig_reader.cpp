@@ -173,6 +173,26 @@ Eigen::VectorXd mean_of_looks(const Eigen::MatrixXd& looks, std::size_t pose) {
         .transpose();
 }
 
+/// What is read where each channel acts alone, made to rise.
+Eigen::MatrixXd curves_of(const RigReader& reader, const std::vector<KnownUnit>& units,
+                          const Eigen::MatrixXd& looks) {
+    Eigen::MatrixXd out(static_cast<Eigen::Index>(reader.channels.size()), RigReader::kLevels);
+    for (Eigen::Index c = 0; c < out.rows(); ++c) {
+        const std::string unit = unit_of(reader.channels[static_cast<std::size_t>(c)].name);
+        const auto at = std::find_if(units.begin(), units.end(),
+                                     [&](const KnownUnit& one) { return one.unit.name == unit; });
+        const auto from = static_cast<std::size_t>(at - units.begin()) * RigReader::kLevels;
+        double before = 0;
+        for (int level = 0; level < RigReader::kLevels; ++level) {
+            const double read = reader.readout.row(c).dot(
+                mean_of_looks(looks, from + static_cast<std::size_t>(level)));
+            before = std::max(read, before + kLeastSlope / RigReader::kLevels);
+            out(c, level) = before;
+        }
+    }
+    return out;
+}
+
 /// Reads the mixed poses by regressions that have not seen them.
 void judge(const Lessons& lessons, const Eigen::MatrixXd& looks, const Eigen::MatrixXd& truth,
            const Sums& all, RigReader& reader) {
@@ -227,7 +247,7 @@ void each_number(Reader& reader, const Visit& visit) {
         visit(one.error);
         visit(one.false_rms);
     }
-    for (auto* matrix : {&reader.readout, &reader.curves, &reader.full, &reader.alone})
+    for (auto* matrix : {&reader.readout, &reader.curves, &reader.full})
         for (Eigen::Index i = 0; i < matrix->size(); ++i) visit((*matrix)(i));
 }
 
@@ -242,11 +262,9 @@ void find_reliable(std::vector<CameraChannel>& channels) {
 /// A reader with its channels, and room for its numbers.
 RigReader empty_reader(const std::vector<KnownUnit>& units) {
     RigReader out;
-    for (std::size_t unit = 0; unit < units.size(); ++unit)
+    for (const KnownUnit& one : units)
         for (const char* side : {".l", ".r"}) {
-            const KnownUnit& one = units[unit];
             out.channels.push_back({one.unit.name + std::string(one.sided ? side : "")});
-            out.unit_of_channel.push_back(static_cast<int>(unit));
             if (!one.sided) break;
         }
     out.rest.points.assign(landmarks::kFacePoints, Vec3::Zero());
@@ -256,14 +274,12 @@ RigReader empty_reader(const std::vector<KnownUnit>& units) {
     out.readout.resize(channels, numbers_of(none).size());
     out.curves.resize(channels, RigReader::kLevels);
     out.full.resize(channels, static_cast<Eigen::Index>(ranges().size()));
-    out.alone.resize(out.readout.cols(),
-                     static_cast<Eigen::Index>(units.size()) * RigReader::kLevels);
     return out;
 }
 
 /// Pictures of the rig at rest and with each unit stand for whatever it is made of.
 std::string key_of(RigPictures& pictures, const std::vector<KnownUnit>& units) {
-    CacheKey key("perform/rig_reader 2");
+    CacheKey key("perform/rig_reader 1");
     key.add(pictures.draw({}).rgba);
     for (const KnownUnit& one : units)
         key.add(one.sided).add(pictures.draw({{one.unit.name, 1.0}}).rgba);
@@ -283,9 +299,7 @@ void learn(const std::shared_ptr<const scene::RigFiles>& rig, std::unique_ptr<Ri
                                      out.channels[static_cast<std::size_t>(c)].name);
     const Sums sums(looks, truth);
     out.readout = sums.readout();
-    for (Eigen::Index i = 0; i < out.alone.cols(); ++i)
-        out.alone.col(i) = mean_of_looks(looks, static_cast<std::size_t>(i));
-    out.curves = out.curves_of(out.readout);
+    out.curves = curves_of(out, units, looks);
     for (std::size_t k = 0; k < ranges().size(); ++k)
         out.full.col(static_cast<Eigen::Index>(k)) =
             out.readout * mean_of_looks(looks, lessons.ranges_from + k);
@@ -300,22 +314,7 @@ const std::vector<Range>& ranges() {
     return all;
 }
 
-// What is read where each channel acts alone, made to rise.
-Eigen::MatrixXd RigReader::curves_of(const Eigen::MatrixXd& changed_readout) const {
-    Eigen::MatrixXd out(changed_readout.rows(), kLevels);
-    for (Eigen::Index c = 0; c < out.rows(); ++c) {
-        const Eigen::Index from = unit_of_channel[static_cast<std::size_t>(c)] * kLevels;
-        double before = 0;
-        for (int level = 0; level < kLevels; ++level) {
-            const double read = changed_readout.row(c).dot(alone.col(from + level));
-            before = std::max(read, before + kLeastSlope / kLevels);
-            out(c, level) = before;
-        }
-    }
-    return out;
-}
-
-double RigReader::value(const Eigen::MatrixXd& curves, std::size_t channel, double read) {
+double RigReader::value(std::size_t channel, double read) const {
     double below = 0;
     for (int level = 0; level < kLevels; ++level) {
         const double above = curves(static_cast<Eigen::Index>(channel), level);

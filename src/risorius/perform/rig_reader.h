@@ -45,15 +45,9 @@ struct RigReader {
     Eigen::MatrixXd readout;  ///< W, channels x numbers
     Eigen::MatrixXd curves;   ///< channels x kLevels: r_c(v) at v = 1/kLevels, 2/kLevels ... 1
     Eigen::MatrixXd full;     ///< channels x ranges(): r where the rig shows the range
-    /// x where each unit acts alone, numbers x (units x kLevels), and the unit of each channel
-    Eigen::MatrixXd alone;
-    std::vector<int> unit_of_channel;
 
     static constexpr int kLevels = 8;
-    double value(std::size_t channel, double read) const { return value(curves, channel, read); }
-    /// v of r by other curves, such as curves_of(), for a changed readout.
-    static double value(const Eigen::MatrixXd& curves, std::size_t channel, double read);
-    Eigen::MatrixXd curves_of(const Eigen::MatrixXd& changed_readout) const;
+    double value(std::size_t channel, double read) const;  ///< v of r
     /// The same of a face as values of all channels.
     std::vector<double> values(const ShapeChange& change) const;
 };
