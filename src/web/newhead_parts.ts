@@ -54,7 +54,7 @@ export class NewHeadParts {
     const option = (value: string, text: string) => h("option", { value }, text);
     this.list.replaceChildren(
       ...mesh.groups.map((group, index) => {
-        const select = h("select", { "aria-label": `What ${group.name} is` }, option("", group.role ? `by its name: ${inWords(group.role)}` : "by its name: not known, hidden"), ...mesh.roles.map((role) => option(role, inWords(role))));
+        const select = h("select", { "aria-label": `What ${group.name} is` }, option("", group.role ? `${inWords(group.role)} (name)` : "not known: hidden"), ...mesh.roles.map((role) => option(role, inWords(role))));
         select.value = this.kept.role[group.name] ?? "";
         select.addEventListener("change", () => {
           if (select.value) this.kept.role[group.name] = select.value;
@@ -65,7 +65,7 @@ export class NewHeadParts {
         });
         const show = () => this.actions.point(index);
         const hide = () => this.actions.point(null);
-        const row = h("label", { class: "group", onpointerenter: show, onpointerleave: hide, onfocusin: show, onfocusout: hide }, h("span", { title: group.name }, group.name || "without a name"), select);
+        const row = h("label", { class: "mesh-part", onpointerenter: show, onpointerleave: hide, onfocusin: show, onfocusout: hide }, h("span", { title: group.name }, group.name || "without a name"), select);
         return row;
       }),
     );

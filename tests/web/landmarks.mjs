@@ -192,7 +192,7 @@ await test("groups whose names say nothing get their roles in the page, and the 
   assert.match(said, /give it one under “Scan and parts”/);
   const rig = JSON.parse(readFileSync(join(folder, "carla/head.rig.json"), "utf8"));
   const number = (name) => `Mesh_${String(groups.indexOf(name)).padStart(2, "0")}`;
-  for (const [role, name] of Object.entries(given)) assert.deepEqual(rig.parts[role], [number(name)]);
+  for (const [role, name] of Object.entries(given)) assert.deepEqual(rig.mesh.parts[role], [number(name)]);
 });
 
 // Without the network that looks at pictures, the page says what fetches it.
