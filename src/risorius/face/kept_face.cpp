@@ -26,8 +26,8 @@ std::size_t KeptFace::bytes() const {
 }
 
 KeptFace Face::keep() const {
-    return KeptFace(std::make_shared<const KeptFace::Content>(
-        KeptFace::Content{impl_->keep(), time_s()}));
+    return KeptFace(
+        std::make_shared<const KeptFace::Content>(KeptFace::Content{impl_->keep(), time_s()}));
 }
 
 void Face::go_back_to(const KeptFace& moment) { impl_->go_back_to(moment.content().moment); }

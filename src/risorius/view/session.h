@@ -165,8 +165,8 @@ class Session {
     bool playing_ = false, loop_ = false;
     int every_ = 1, waited_ = 0;  // play: ticks per frame
     int quiet_ = kQuietTicks;     // ticks without motion
-    int held_ = 0;  // ticks with the drive of the playhead held, since something changed
-    bool fails_ = false;          // the script cannot be computed up to the playhead
+    int held_ = 0;        // ticks with the drive of the playhead held, since something changed
+    bool fails_ = false;  // the script cannot be computed up to the playhead
     Points last_nodes_;
     bool with_strain_ = false, with_muscles_ = false;
     std::string selected_;

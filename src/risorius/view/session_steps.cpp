@@ -122,7 +122,8 @@ bool Session::tick_live() {
                        (nodes - last_nodes_).cwiseAbs().maxCoeff() < kStill_m;
     last_nodes_ = nodes;
     quiet_ = still ? quiet_ + 1 : 0;
-    if (!touched() && !fails_ && (quiet_ >= kQuietTicks || ++held_ >= kLongestHold)) wanted_ = frame_;
+    if (!touched() && !fails_ && (quiet_ >= kQuietTicks || ++held_ >= kLongestHold))
+        wanted_ = frame_;
     return true;
 }
 
