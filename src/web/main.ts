@@ -274,6 +274,10 @@ function takeOther(message: Record<string, any>): void {
   if (message.type === "camera") camera.useState(message);
   if (message.type === "performed") camera.usePerformed(message);
   if (message.type === "job") making.useJob(message as Job);
+  if (message.type === "voice") {
+    if (message.state === "running") say(`The mouths of this rig are simulated first, once, for some minutes: ${Math.round(100 * Number(message.fraction))} %. You can go on working.`, true);
+    else if (message.state === "failed") say(String(message.text));
+  }
   if (message.type === "meshes") newHead.useMeshes(message.files);
   if (message.type === "landmarks_saved") newHead.useSaved(message.path);
   if (message.type === "landmarks_found") newHead.useFound(message);

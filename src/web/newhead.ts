@@ -6,6 +6,7 @@ import { byId, h } from "./dom.js";
 import { landmarkLabel, landmarkNamed, landmarkTable } from "./landmark_table.js";
 import { LandmarkModel, mapOf, required } from "./landmark_model.js";
 import type { Places } from "./landmark_model.js";
+import { NewHeadParts } from "./newhead_parts.js";
 import { NewHeadStage } from "./newhead_stage.js";
 import type { MeshFrame, Vec } from "./protocol.js";
 
@@ -13,6 +14,15 @@ export interface NewHeadActions {
   /// Returns what is wrong with the message, or null.
   ask(message: Record<string, unknown>): Promise<string | null>;
   open(rig: string): void;
+}
+
+/// What the command line says, with the words of this page.
+function inThePage(text: string): string {
+  return text
+    .replace(/\(--cut-lips cuts them\)/g, "(“Cut lips that are joined” cuts them)")
+    .replace(/\(--repair mends/g, "(“Repair” mends")
+    .replace(/\(the option part gives it one: [^)]*\)/g, "(give it one under “Scan and parts”)")
+    .replace(/\(--part [^)]*\)/g, "(say so under “Scan and parts”)");
 }
 
 const step_mm = 0.5;
@@ -27,6 +37,10 @@ export class NewHead {
   private folder = "";
   private readonly meshes = byId<HTMLSelectElement>("newhead-mesh");
   private readonly list = byId("newhead-list");
+  private readonly parts = new NewHeadParts({
+    changed: () => this.stage?.useRoles(this.parts.roles),
+    point: (group) => this.stage?.point(group),
+  });
 
   constructor(private readonly actions: NewHeadActions) {
     this.meshes.addEventListener("change", () => this.meshes.value && void this.load(this.meshes.value));
@@ -74,7 +88,8 @@ export class NewHead {
       key: (event) => this.key(event),
     });
     this.mesh = mesh;
-    this.stage.use(mesh);
+    this.parts.use(mesh, this.keptName.replace("landmarks", "parts"));
+    this.stage.use(mesh, this.parts.roles);
     this.model = new LandmarkModel((p) => this.stage!.snap(p));
     byId("newhead-open").hidden = true;
     const kept = localStorage.getItem(this.keptName);
@@ -148,7 +163,7 @@ export class NewHead {
   }
 
   private async find(): Promise<void> {
-    const wrong = await this.actions.ask({ type: "find_landmarks" });
+    const wrong = await this.actions.ask({ type: "find_landmarks", parts: this.parts.parts });
     if (wrong) this.tell(wrong, true);
   }
 
@@ -168,7 +183,7 @@ export class NewHead {
   private async send(type: "fit" | "save_landmarks", replace: boolean): Promise<void> {
     const landmarks = Object.fromEntries(Object.entries(this.model!.places).map(([id, place]) => [id, place.at]));
     const quick = byId<HTMLInputElement>("newhead-quick").checked;
-    const wrong = await this.actions.ask({ type, landmarks, quick, replace });
+    const wrong = await this.actions.ask({ type, landmarks, quick, replace, ...this.parts.forFit });
     if (!wrong) return;
     const name = wrong.match(/consent to replace "([^"]+)"/)?.[1];
     if (name && confirm(`${name} exists already. Replace it?`)) await this.send(type, true);
@@ -184,7 +199,8 @@ export class NewHead {
     byId<HTMLButtonElement>("newhead-fit").disabled = running;
     if (running) return this.tell("Fitting… With calibration this takes about a minute.");
     this.tell(message.state === "done" ? `The rig is ${message.rig}.` : "No rig could be made.", message.state !== "done");
-    byId("newhead-text").textContent = String(message.text).trim();
+    byId("newhead-text").textContent = inThePage(String(message.text).trim());
+    if (message.state !== "done" && /--(part|cut-lips|repair)\b/.test(message.text)) this.parts.open();
     byId("newhead-open").hidden = message.state !== "done";
     if (message.state === "done") byId("newhead-open").focus();
     this.write();

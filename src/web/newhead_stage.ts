@@ -27,7 +27,9 @@ export class NewHeadStage {
   private readonly controls: OrbitControls;
   private readonly lamps = new THREE.Group();
   private readonly markers = new THREE.Group();
+  private frame: MeshFrame | null = null;
   private mesh: THREE.Mesh | null = null;
+  private pointed: THREE.Mesh | null = null; ///< the group that the list of parts points at
   private skin: THREE.Mesh | null = null; ///< the group that landmarks are put on
   size = 0.25; ///< height of the mesh, in its units
   private chosen = "";
@@ -63,27 +65,11 @@ export class NewHeadStage {
     draw();
   }
 
-  use(frame: MeshFrame): void {
-    for (const old of [this.mesh, this.skin]) if (old) this.scene.remove(old);
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(frame.vertices, 3));
-    // Lashes and hair would hide the lids and the brow.
-    const drawn = frame.groups.filter((group) => !/lash|hair/i.test(group.name));
-    const parts = drawn.map(({ from, count }) => frame.triangles.subarray(3 * from, 3 * (from + count)));
-    const triangles = new Uint32Array(parts.reduce((sum, one) => sum + one.length, 0));
-    parts.reduce((at, one) => (triangles.set(one, at), at + one.length), 0);
-    geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
-    geometry.computeVertexNormals();
-    const material = new THREE.MeshStandardMaterial({ color: 0xc9a48e, roughness: 0.7, side: THREE.DoubleSide });
-    this.mesh = new THREE.Mesh(geometry, softwareGl() ? lean(material) : material);
-    // The skin is the largest part; eyes, teeth and lashes have no landmarks.
-    const largest = [...frame.groups].sort((a, b) => b.count - a.count)[0];
-    const part = new THREE.BufferGeometry();
-    part.setAttribute("position", geometry.getAttribute("position"));
-    part.setIndex(new THREE.BufferAttribute(frame.triangles.slice(3 * largest.from, 3 * (largest.from + largest.count)), 1));
-    this.skin = new THREE.Mesh(part, new THREE.MeshBasicMaterial({ side: THREE.DoubleSide }));
-    this.skin.visible = false;
-    this.scene.add(this.mesh, this.skin);
+  /// `roles`: of each group of the mesh.
+  use(frame: MeshFrame, roles: string[]): void {
+    this.frame = frame;
+    this.useRoles(roles);
+    const geometry = this.mesh!.geometry;
     geometry.computeBoundingBox();
     const box = geometry.boundingBox!;
     this.size = box.max.y - box.min.y;
@@ -91,6 +77,58 @@ export class NewHeadStage {
     this.camera.near = this.size / 100;
     this.camera.far = this.size * 100;
     this.look(centre, new THREE.Vector3(0, 0, 1), 1.15 * this.size);
+  }
+
+  /// The triangles of some groups.
+  private trianglesOf(groups: { from: number; count: number }[]): THREE.BufferAttribute {
+    const parts = groups.map(({ from, count }) => this.frame!.triangles.subarray(3 * from, 3 * (from + count)));
+    const triangles = new Uint32Array(parts.reduce((sum, one) => sum + one.length, 0));
+    parts.reduce((at, one) => (triangles.set(one, at), at + one.length), 0);
+    return new THREE.BufferAttribute(triangles, 1);
+  }
+
+  useRoles(roles: string[]): void {
+    const frame = this.frame!;
+    for (const old of [this.mesh, this.skin])
+      if (old) {
+        this.scene.remove(old);
+        old.geometry.dispose();
+      }
+    this.point(null);
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(frame.vertices, 3));
+    // Lashes and hair would hide the lids and the brow. A part whose name says nothing is shown: it may be the skin.
+    const drawn = frame.groups.filter((group, index) => !/lash|hair/i.test(group.name) && !roles[index].startsWith("lashes") && (roles[index] !== "hidden" || !group.role));
+    geometry.setIndex(this.trianglesOf(drawn.length > 0 ? drawn : frame.groups));
+    geometry.computeVertexNormals();
+    const material = new THREE.MeshStandardMaterial({ color: 0xc9a48e, roughness: 0.7, side: THREE.DoubleSide });
+    this.mesh = new THREE.Mesh(geometry, softwareGl() ? lean(material) : material);
+    // Eyes, teeth and lashes have no landmarks. Where no group is known to be skin, the largest is taken.
+    const skin = frame.groups.filter((_, index) => roles[index] === "skin");
+    const part = new THREE.BufferGeometry();
+    part.setAttribute("position", geometry.getAttribute("position"));
+    part.setIndex(this.trianglesOf(skin.length > 0 ? skin : [...frame.groups].sort((a, b) => b.count - a.count).slice(0, 1)));
+    this.skin = new THREE.Mesh(part, new THREE.MeshBasicMaterial({ side: THREE.DoubleSide }));
+    this.skin.visible = false;
+    this.scene.add(this.mesh, this.skin);
+    this.dirty = true;
+  }
+
+  /// Marks a group through everything that is in front of it; null: none.
+  point(group: number | null): void {
+    if (this.pointed) {
+      this.scene.remove(this.pointed);
+      this.pointed.geometry.dispose();
+      this.pointed = null;
+    }
+    if (group !== null && this.frame) {
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute("position", this.mesh!.geometry.getAttribute("position"));
+      geometry.setIndex(this.trianglesOf([this.frame.groups[group]]));
+      this.pointed = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ color: 0x7fb6f5, transparent: true, opacity: 0.45, depthTest: false, side: THREE.DoubleSide }));
+      this.scene.add(this.pointed);
+    }
+    this.dirty = true;
   }
 
   private look(target: THREE.Vector3, direction: THREE.Vector3, height: number): void {

@@ -147,7 +147,8 @@ export interface MeshFrame {
   rig: string; ///< where its rig is written
   vertices: Float32Array;
   triangles: Uint32Array;
-  groups: { name: string; from: number; count: number }[]; ///< ranges of triangles
+  groups: { name: string; from: number; count: number; role: string }[]; ///< ranges of triangles, and the role that the name says, or ""
+  roles: string[]; ///< that a group may have
 }
 
 /// A rigid motion: a quaternion x, y, z, w, and a translation.

@@ -92,15 +92,20 @@ TEST(SceneFrame, MeshHasItsGroupsAsRangesOfTriangles) {
     mesh.corner_vertex = {1, 4, 2, 0, 1, 2, 3};
     mesh.face_group = {1, 0};
     mesh.group_names = {"skin", "eye"};
-    const std::string bytes = encode_mesh(mesh, "a/b.obj", "a/b.rig.json");
+    const std::string bytes = encode_mesh(mesh, {.file = "a/b.obj",
+                                                 .rig = "a/b.rig.json",
+                                                 .roles = {"skin", "eye_l"},
+                                                 .role_of_group = {"skin", ""}});
     std::uint32_t numbers[2];
     std::memcpy(numbers, bytes.data(), sizeof numbers);
     EXPECT_EQ(numbers[0], 5u);
     const Json head = Json::parse(bytes.substr(8, numbers[1]));
     EXPECT_EQ(head["file"], "a/b.obj");
     EXPECT_EQ(head["rig"], "a/b.rig.json");
-    EXPECT_EQ(head["groups"], Json::parse(R"([{"name": "skin", "from": 0, "count": 2},
-                                              {"name": "eye", "from": 2, "count": 1}])"));
+    EXPECT_EQ(head["groups"],
+              Json::parse(R"([{"name": "skin", "from": 0, "count": 2, "role": "skin"},
+                                              {"name": "eye", "from": 2, "count": 1, "role": ""}])"));
+    EXPECT_EQ(head["roles"], Json::parse(R"(["skin", "eye_l"])"));
     const std::size_t data = 8 + numbers[1];
     float last[3];
     std::memcpy(last, bytes.data() + data + head["vertices"]["at"].get<std::size_t>() + 48, 12);
@@ -209,6 +214,68 @@ TEST(Session, OverridesBecomeKeysAndEditsInvalidateOnlyWhatFollows) {
         {{"type", "edit"},
          {"edits", Json::array({{{"path", "/channels/AU12/keys/2"}, {"value", {0.4, 0.1}}}})}}));
     EXPECT_NEAR(state_of(session)["computed_s"].get<double>(), 0.2, 0.02);
+}
+
+TEST(Session, AnEditGoesOnFromAMomentBeforeIt) {
+    Json script = smile();
+    script["duration_s"] = 1.0;
+    script["channels"]["AU12"]["keys"] = Json::parse("[[0, 0], [0.2, 0.6], [0.7, 0.6], [0.9, 0]]");
+    const auto compute = [](Session& session, double t_s) {
+        session.receive(message({{"type", "seek"}, {"t_s", t_s}}));
+        int ticks = 1;
+        while (!session.tick() && ticks < 200) ++ticks;
+        return ticks;
+    };
+    Session session(inputs(script));
+    EXPECT_GT(compute(session, 0.95), 10) << "58 steps, five a tick";
+    session.receive(message(
+        {{"type", "edit"},
+         {"edits", Json::array({{{"path", "/channels/AU12/keys/3"}, {"value", {0.9, 0.4}}}})}}));
+    EXPECT_NEAR(state_of(session)["computed_s"].get<double>(), 0.7, 0.02);
+    EXPECT_LE(compute(session, 0.95), 6) << "28 steps from the moment at 0.5 s";
+    script["channels"]["AU12"]["keys"][3][1] = 0.4;
+    Session fresh(inputs(script));
+    compute(fresh, 0.95);
+    EXPECT_TRUE(session.pose().substr(8) ==
+                fresh.pose().substr(8));  // the number of the tick differs
+}
+
+// While a key is dragged, the face is held with the drive of the playhead. Then it is what the script makes of it.
+TEST(Session, AnEditShowsTheHeldMomentAndThenTheScript) {
+    Json script = smile();
+    script["duration_s"] = 1.0;
+    script["channels"]["AU12"]["keys"] =
+        Json::parse("[[0, 0], [0.2, 0.6], [0.5, 0.6], [0.7, 0.6], [0.9, 0]]");
+    const auto key = [](int number, double value) {
+        const std::string path = "/channels/AU12/keys/" + std::to_string(number) + "/1";
+        return message(
+            {{"type", "edit"}, {"edits", Json::array({{{"path", path}, {"value", value}}})}});
+    };
+    const auto compute = [](Session& session) {
+        session.receive(message({{"type", "seek"}, {"t_s", 0.3}}));
+        for (int i = 0; i < 100 && !session.tick(); ++i) {
+        }
+    };
+    Session session(inputs(script));
+    compute(session);
+    const std::string former = session.pose();
+    session.receive(key(1, 0.9));
+    EXPECT_TRUE(session.tick()) << "it moves at once";
+    EXPECT_FALSE(state_of(session)["resting"].get<bool>());
+    for (int i = 0; i < 300 && !state_of(session)["resting"].get<bool>(); ++i) session.tick();
+    EXPECT_TRUE(state_of(session)["resting"].get<bool>()) << session.state();
+    EXPECT_NEAR(state_of(session)["computed_s"].get<double>(), 0.3, 1e-9);
+    script["channels"]["AU12"]["keys"][1][1] = 0.9;
+    Session fresh(inputs(script));
+    compute(fresh);
+    const std::string now = session.pose();
+    EXPECT_TRUE(now.substr(8) == fresh.pose().substr(8));
+    EXPECT_FALSE(now.substr(8) == former.substr(8));
+    // An edit after the playhead changes nothing here. The slope at a key depends on its neighbours.
+    session.receive(key(4, 0.5));
+    session.tick();
+    EXPECT_TRUE(state_of(session)["resting"].get<bool>());
+    EXPECT_TRUE(session.pose().substr(8) == now.substr(8));
 }
 
 TEST(Session, SaysWhatIsWrongAndGoesOn) {

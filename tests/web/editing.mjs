@@ -71,8 +71,8 @@ await test("the pointer names muscles, with what they do", async () => {
   await page.locator("#sight").selectOption("muscles");
   const found = await page.waitForFunction(() => {
     const box = document.querySelector("#stage canvas").getBoundingClientRect();
-    for (let y = box.top + 60; y < box.bottom; y += 4)
-      for (let x = box.left + box.width / 2; x < box.right; x += 4) {
+    for (let y = box.top + 60; y < box.bottom; y += 8)
+      for (let x = box.left + box.width / 2; x < box.right; x += 8) {
         const found = window.studio.probe({ clientX: x, clientY: y });
         if (found?.muscle === "zygomaticus_major.l") return { x, y };
       }

@@ -14,6 +14,7 @@ const mesh = readFileSync(join(source, "models/adult/head.obj"), "utf8");
 writeFileSync(join(folder, "anna/head.obj"), mesh);
 const vertices = mesh.split("\n").filter((line) => line.startsWith("v ")).map((line) => line.split(" ").slice(1, 4).map(Number));
 const truth = Object.fromEntries(Object.entries(JSON.parse(readFileSync(join(source, "models/adult/landmarks.json"), "utf8")).landmarks).map(([id, { vertex }]) => [id, vertices[vertex]]));
+const required = "n prn sn ls sto li pg me t_l t_r en_l en_r ex_l ex_r ps_l ps_r pi_l pi_r ch_l ch_r".split(" ");
 const far = (a, b) => Math.hypot(...a.map((one, k) => one - b[k]));
 
 const url = await start();
@@ -135,6 +136,63 @@ await test("a fit from them gives a rig that smiles", async () => {
   await until(page, () => window.studio.state().overrides.AU12 === 1 && document.querySelector("#twin").textContent.includes("zygomaticus"));
   await page.waitForTimeout(1500);
   await shot(page, "newhead-smiles");
+});
+
+await test("a rig that has never spoken gets its mouths while the page goes on", async () => {
+  await page.locator("#add").selectOption("say");
+  await page.locator("#say-text").fill("Mama.");
+  await page.locator("#say-form button.primary").click();
+  await until(page, () => /mouths of this rig are simulated first/.test(document.querySelector("#message").textContent));
+  await page.evaluate(() => window.studio.ask({ type: "override", channel: "AU2", value: 0.5 }));
+  await until(page, () => window.studio.state().overrides.AU2 === 0.5);
+  assert.match(await page.evaluate(() => window.studio.ask({ type: "say", text: "Mama." })), /expected mouths that are simulated/);
+});
+
+await test("groups whose names say nothing get their roles in the page, and the fit gets them", async () => {
+  mkdirSync(join(folder, "carla"));
+  const groups = [...new Set(mesh.split("\n").filter((line) => /^[go] /.test(line)).map((line) => line.slice(2).trim()))];
+  assert.ok(groups.includes("skin"), `${groups}`);
+  writeFileSync(join(folder, "carla/head.obj"), mesh.replace(/^([go]) (.*)$/gm, (_, letter, name) => `${letter} Mesh_${String(groups.indexOf(name.trim())).padStart(2, "0")}`));
+  await page.close();
+  page = await open(url, { width: 1100, height: 900 });
+  await page.locator("#new-head").click();
+  await page.locator("#newhead-mesh option", { hasText: "carla/head.obj" }).waitFor({ state: "attached" });
+  await page.locator("#newhead-mesh").selectOption("carla/head.obj");
+  await until(page, () => window.studio.newHead().vertices?.length > 1000);
+  assert.match(await page.locator("#newhead-parts-count").textContent(), new RegExp(`${groups.length} of ${groups.length} groups not known`));
+  await page.locator("#newhead-parts summary").click();
+  assert.ok(await page.locator("#newhead-skin-missing").isVisible());
+  const given = { skin: "skin", eye_l: "eye_l", eye_r: "eye_r" };
+  for (const [role, name] of Object.entries(given)) await page.locator("#newhead-groups select").nth(groups.indexOf(name)).selectOption(role);
+  assert.ok(!(await page.locator("#newhead-skin-missing").isVisible()));
+  await page.locator("#newhead-groups select").nth(groups.indexOf("eye_l")).focus();
+  await shot(page, "newhead-parts");
+  // What the page may ask for: roles and groups that exist.
+  for (const [parts, wrong] of [[{ skin: ["Mesh_99"] }, /group of the mesh/], [{ nose: ["Mesh_00"] }, /role of a part/], [{ skin: "Mesh_00" }, /an array/]])
+    assert.match(await page.evaluate((p) => window.studio.ask({ type: "find_landmarks", parts: p }), parts), wrong);
+  const landmarks = Object.fromEntries(required.map((id) => [id, truth[id]]));
+  await page.evaluate((places) => localStorage.setItem(Object.keys(localStorage).find((one) => /^risorius parts .*carla/.test(one)).replace("parts", "landmarks"), JSON.stringify(places)), Object.fromEntries(Object.entries(landmarks).map(([id, at]) => [id, { at, found: "placed" }])));
+  await page.reload();
+  await until(page, () => document.body.dataset.step !== undefined);
+  await page.locator("#new-head").click();
+  await page.locator("#newhead-mesh option", { hasText: "carla/head.obj" }).waitFor({ state: "attached" });
+  await page.locator("#newhead-mesh").selectOption("carla/head.obj");
+  await until(page, () => Object.keys(window.studio.newHead().places ?? {}).length === 20);
+  await page.locator("#newhead-parts summary").click();
+  assert.equal(await page.locator("#newhead-groups select").nth(groups.indexOf("eye_r")).inputValue(), "eye_r", "the roles are kept");
+  await page.locator("#newhead-cut-lips").check();
+  await page.locator("#newhead-repair").check();
+  await page.locator("#newhead-fit").click();
+  await page.waitForFunction(() => /rig is|could be made/.test(document.querySelector("#newhead-told").textContent), null, { timeout: 200000 });
+  const said = await page.locator("#newhead-text").textContent();
+  assert.equal(await page.locator("#newhead-told").textContent(), "The rig is carla/head.rig.json.", said);
+  assert.match(said, /the lips are apart already: nothing was cut/);
+  assert.match(said, /nothing was repaired/);
+  assert.doesNotMatch(said, /--|option part/);
+  assert.match(said, /give it one under “Scan and parts”/);
+  const rig = JSON.parse(readFileSync(join(folder, "carla/head.rig.json"), "utf8"));
+  const number = (name) => `Mesh_${String(groups.indexOf(name)).padStart(2, "0")}`;
+  for (const [role, name] of Object.entries(given)) assert.deepEqual(rig.mesh.parts[role], [number(name)]);
 });
 
 // Without the network that looks at pictures, the page says what fetches it.

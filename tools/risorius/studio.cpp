@@ -13,7 +13,6 @@
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
 #include "risorius/report/atomic_file.h"
-#include "risorius/talk/say_edit.h"
 #include "risorius/talk/say_event.h"
 #include "risorius/view/document.h"
 #include "tools/risorius/project_files.h"
@@ -112,6 +111,7 @@ void Studio::run(serve::WebServer& server, const std::function<bool()>& stopped)
     export_->finish();
     perform_.finish();
     thumbnails_.finish();
+    voice_.finish();
 }
 
 Studio::Page* Studio::page_of(const serve::Peer& peer) {
@@ -258,34 +258,6 @@ void Studio::thumbnail(const JsonCursor& message) {
                     [this](const std::string& text) { tell_all(text); });
 }
 
-/// The face says a text from the playhead on, at once: its closures are not checked before.
-void Studio::say(serve::Peer& peer, const JsonCursor& message) {
-    message.allow_keys({"type", "id", "text", "voice", "program"});
-    talk::VoiceRequest request;
-    request.text = message.at("text").string();
-    if (const auto voice = message.find("voice")) request.language = voice->string();
-    if (const auto program = message.find("program")) request.program = program->string();
-    const Json state = json_or_null(script_.session->state()),
-               script = json_or_null(script_.session->script_text());
-    const double at_s = state["t_s"].get<double>();
-    const talk::SayEdit said = talk::say_edit(script, request, at_s);
-    const std::vector<std::string> replies = script_.session->receive(
-        json_text(json_object({{"type", "edit"}, {"edits", said.edits}, {"gesture", ""}})));
-    bool done = true;
-    for (const std::string& reply : replies) {
-        const bool document = json_or_null(reply)["type"] == "document";
-        if (document)
-            tell_document(reply);
-        else
-            peer.send_text(reply);
-        done = done && document;
-    }
-    if (!done) return;
-    script_.session->receive(json_text(json_object({{"type", "seek"}, {"t_s", at_s}})));
-    script_.session->receive(json_text(json_object({{"type", "play"}})));
-    pose_waits_ = true;
-}
-
 void Studio::new_head(serve::Peer& peer, const std::string& type, const JsonCursor& message) {
     if (type == "meshes") return peer.send_text(head_->meshes());
     if (type == "mesh")
@@ -296,7 +268,8 @@ void Studio::new_head(serve::Peer& peer, const std::string& type, const JsonCurs
         return tell_all(
             json_text(json_object({{"type", "landmarks_found"}, {"state", "running"}})));
     }
-    message.allow_keys({"type", "id", "landmarks", "replace", "quick"});
+    message.allow_keys(
+        {"type", "id", "landmarks", "replace", "quick", "cut_lips", "repair", "parts"});
     const fs::path file = head_->write_landmarks(message);
     const std::string name = file.lexically_proximate(folder_).generic_string();
     tell_all(json_text(json_object({{"type", "landmarks_saved"}, {"path", name}})));

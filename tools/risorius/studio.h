@@ -13,6 +13,7 @@
 #include "risorius/animate/render_inputs.h"
 #include "risorius/serve/web_server.h"
 #include "risorius/view/session.h"
+#include "tools/risorius/child_job.h"
 #include "tools/risorius/studio_export.h"
 #include "tools/risorius/studio_head.h"
 #include "tools/risorius/studio_perform.h"
@@ -65,6 +66,7 @@ class Studio {
     void send_pose(bool always);
     void save(const JsonCursor& message);
     void say(serve::Peer& peer, const JsonCursor& message);
+    void make_voice(const JsonCursor& message);
     void new_head(serve::Peer& peer, const std::string& type, const JsonCursor& message);
     ScriptNow script_now() const;
     void make(serve::Peer& peer, const std::string& type, const JsonCursor& message);
@@ -84,6 +86,7 @@ class Studio {
     std::unique_ptr<StudioExport> export_;
     StudioPerform perform_;
     StudioThumbnails thumbnails_;
+    ChildJob voice_;
     OpenScript script_;
     ScriptSound planned_, sound_;  ///< of the script that was read last; what the pages have
     std::vector<Page> pages_;

@@ -4,15 +4,18 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "risorius/core/error.h"
 #include "risorius/core/input_log.h"
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
+#include "risorius/fitting/part_guess.h"
 #include "risorius/io/read_mesh.h"
 #include "risorius/landmarks/propose_landmarks.h"
 #include "risorius/report/atomic_file.h"
+#include "risorius/rig/rig_description.h"
 #include "risorius/view/scene_frame.h"
 #include "tools/risorius/project_files.h"
 
@@ -62,8 +65,34 @@ std::string StudioHead::mesh(const JsonCursor& message) {
     const JsonCursor path = message.at("path");
     const fs::path file = in_project(folder_, path, mesh_endings(), "a mesh");
     const geom::PolygonMesh mesh = io::read_mesh(file);
-    open_ = Opened{file, mesh.from_file.inverse()};
-    return view::encode_mesh(mesh, name_of(file), name_of(rig_file()));
+    open_ = Opened{file, mesh.from_file.inverse(),
+                   std::set<std::string>(mesh.group_names.begin(), mesh.group_names.end())};
+    view::MeshLabels labels{.file = name_of(file), .rig = name_of(rig_file())};
+    for (const std::string_view role : rig::part_roles()) labels.roles.emplace_back(role);
+    for (const std::string& group : mesh.group_names)
+        labels.role_of_group.push_back(
+            mesh.group_names.size() == 1 ? "skin" : fitting::role_suggested_by(group));
+    return view::encode_mesh(mesh, labels);
+}
+
+std::map<std::string, std::vector<std::string>> StudioHead::parts_of(
+    const JsonCursor& message) const {
+    std::map<std::string, std::vector<std::string>> parts;
+    const auto given = message.find("parts");
+    if (!given) return parts;
+    const auto& known = rig::part_roles();
+    for (const std::string& role : given->keys()) {
+        const JsonCursor groups = given->at(role);
+        if (std::find(known.begin(), known.end(), role) == known.end())
+            groups.fail("a role of a part", in_quotes(role));
+        for (const JsonCursor& group : groups.items()) {
+            if (!open_->groups.contains(group.string())) group.fail("a group of the mesh");
+            if (group.string().find(',') != std::string::npos)
+                group.fail("a name without a comma");  // which separates groups in the option
+            parts[role].push_back(group.string());
+        }
+    }
+    return parts;
 }
 
 fs::path StudioHead::rig_file() const {
@@ -99,8 +128,13 @@ void StudioHead::fit(const JsonCursor& message, const fs::path& landmarks, serve
     ask_to_replace(message, rig);
     std::vector<std::string> arguments{"fit", open_->file.string()};
     arguments.insert(arguments.end(), {"--landmarks", landmarks.string(), "--out", rig.string()});
-    const auto quick = message.find("quick");
-    if (quick && quick->boolean()) arguments.push_back("--no-calibrate");
+    const std::pair<const char*, const char*> flags[]{
+        {"quick", "--no-calibrate"}, {"cut_lips", "--cut-lips"}, {"repair", "--repair"}};
+    for (const auto& [key, option] : flags)
+        if (const auto on = message.find(key); on && on->boolean()) arguments.emplace_back(option);
+    for (const auto& [role, groups] : parts_of(message))
+        for (const std::string& group : groups)
+            arguments.insert(arguments.end(), {"--part", role + "=" + group});
     fit_.start(arguments, server,
                {.progress = {},
                 .ended = [rig = name_of(rig), done](int exit_code, bool, const std::string& text) {
@@ -113,18 +147,19 @@ void StudioHead::fit(const JsonCursor& message, const fs::path& landmarks, serve
 
 void StudioHead::find(const JsonCursor& message, serve::WebServer& server,
                       std::function<void(const std::string&)> done) {
-    message.allow_keys({"type", "id"});
+    message.allow_keys({"type", "id", "parts"});
     if (!open_) message.fail("a mesh that is open", "none");
     if (searching_) message.fail("one search at a time", "another that runs");
+    const auto parts = parts_of(message);
     searching_ = true;
     const Eigen::Matrix4d to_page = open_->to_file.inverse();
     search_ = std::make_unique<std::jthread>(
-        [this, file = open_->file, path = name_of(open_->file), to_page, &server, done] {
+        [this, file = open_->file, path = name_of(open_->file), to_page, parts, &server, done] {
             Json told = json_object({{"type", "landmarks_found"}, {"path", path}});
             try {
                 Json places = Json::object();
                 for (const auto& [id, landmark] :
-                     landmarks::propose_landmarks({.mesh = file}).landmarks) {
+                     landmarks::propose_landmarks({.mesh = file, .parts = parts}).landmarks) {
                     const Vec3 p = (to_page * landmark.xyz.homogeneous()).head<3>();
                     places[id] = json_object(
                         {{"at", {p.x(), p.y(), p.z()}}, {"confidence", landmark.confidence}});

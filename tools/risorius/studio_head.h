@@ -5,10 +5,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "risorius/core/json_cursor.h"
 #include "risorius/geom/polygon_mesh.h"
@@ -32,12 +35,13 @@ class StudioHead {
     /// that was read last, beside it, as NAME.landmarks.json. Positions are those of the page. Returns the file. Throws Error.
     std::filesystem::path write_landmarks(const JsonCursor& message) const;
 
-    /// Fits a rig in a process of its own. `done` gets {"type": "fit", "state": "done" or "failed", "rig": ..., "text": ...} on the
+    /// Fits a rig in a process of its own; "quick", "cut_lips" and "repair" are true or false, and "parts" is {"skin": ["Mesh_03"]}, the
+    /// groups whose names do not tell their role. `done` gets {"type": "fit", "state": "done" or "failed", "rig": ..., "text": ...} on the
     /// thread of the server. Throws Error while another fit runs, or when the rig exists and "replace" is not true.
     void fit(const JsonCursor& message, const std::filesystem::path& landmarks,
              serve::WebServer& server, std::function<void(const std::string&)> done);
 
-    /// Finds the landmarks of the mesh that was read last, in pictures of it. `done` gets {"type": "landmarks_found", "state": "done" or
+    /// Finds the landmarks of the mesh that was read last, in pictures of it; "parts" as above. `done` gets {"type": "landmarks_found", "state": "done" or
     /// "failed", "path": of the mesh, "landmarks": {"n": {"at": position in the page, "confidence": 0..1}}, "text": what was wrong} on the
     /// thread of the server. Throws Error while another search runs.
     void find(const JsonCursor& message, serve::WebServer& server,
@@ -53,7 +57,10 @@ class StudioHead {
     struct Opened {
         std::filesystem::path file;
         Eigen::Matrix4d to_file;  ///< from metres to coordinates of the file
+        std::set<std::string> groups;
     };
+    /// Role -> groups of the mesh, of {"parts": {"skin": ["Mesh_03"]}}. Throws Error.
+    std::map<std::string, std::vector<std::string>> parts_of(const JsonCursor& message) const;
     std::string name_of(const std::filesystem::path& file) const;
     std::filesystem::path rig_file() const;
 

@@ -34,6 +34,7 @@ namespace risorius::face {
 
 class Calibration;
 class Diagnostics;
+class KeptFace;
 class Fields;
 class Statics;
 class Surfaces;
@@ -80,6 +81,11 @@ class Face {
     /// Advances to the time t_s, s, and returns the pose there. Between steps the pose is interpolated, so that videos of different
     /// frame rates agree at common times. If poses are quasi-static, it solves the equilibrium with the drive at t_s instead.
     FacePose pose_at(double t_s, const DriveAt& drive);
+    /// Returns a copy of all that the steps from now on depend on, some megabytes (kept_face.h).
+    KeptFace keep() const;
+    /// Goes back to a moment of this face: the same drives then give the same bytes as after that moment. What drives the jaw and gravity
+    /// must be as they were then.
+    void go_back_to(const KeptFace& moment);
     /// Puts the face into static equilibrium. `activation` has one entry per column, 0..1; if it is empty, no muscle is active. Of
     /// `kinematic`, only the kinematic channels count.
     StepStats solve_equilibrium(const Eigen::VectorXd& activation, const track::Drive& kinematic,

@@ -13,7 +13,7 @@ KeptEquilibrium Statics::keep() const {
 }
 
 void Statics::go_back_to(const KeptEquilibrium& kept) {
-    face_->go_back_to({kept.nodes, kept.activation, kept.drive, {}});
+    face_->go_back_to(FaceImpl::State{kept.nodes, kept.activation, kept.drive, {}});
 }
 
 Points Statics::gradient(const Points& nodes, const Eigen::VectorXd& activation,

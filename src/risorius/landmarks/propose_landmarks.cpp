@@ -31,13 +31,14 @@ std::vector<TemplateHead> read_templates(const LandmarkOptions& options, const r
     std::vector<TemplateFiles> files = options.templates;
     if (files.empty()) {
         const fs::path adult = data_folder() / "models" / "adult";
-        files.push_back({adult / "head.obj", adult / "landmarks.json"});
+        files.push_back(
+            {adult / "head.obj", adult / "landmarks.json", adult / "landmarks_by_definition.json"});
     }
     std::vector<TemplateHead> out;
     for (const TemplateFiles& file : files) {
         const geom::PolygonMesh mesh = io::read_mesh(file.mesh);
-        out.push_back(template_head(file.mesh.string(), mesh,
-                                    known_landmarks(file.landmarks, mesh, atlas), atlas, network));
+        out.push_back(template_head(file.mesh.string(), mesh, known_landmarks(file, mesh, atlas),
+                                    atlas, network));
     }
     return out;
 }

@@ -19,6 +19,8 @@ namespace risorius::landmarks {
 /// A head whose landmarks are known.
 struct TemplateFiles {
     std::filesystem::path mesh, landmarks;
+    /// Landmarks that lie elsewhere by their definition, in place of those; empty: none
+    std::filesystem::path by_definition{};
 };
 
 struct LandmarkOptions {

@@ -26,6 +26,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "risorius/core/types.h"
@@ -70,6 +71,15 @@ class Contacts {
     /// this list.
     void remember(const Points& x);
     void forget() { memory_.clear(); }
+    /// What is remembered of a contact from solve to solve.
+    struct Memory {
+        int slot;
+        double shift_m;
+        std::optional<double> let_go_m;
+    };
+    const std::vector<Memory>& memory() const { return memory_; }
+    /// Makes the next set() give back what was remembered then: a memory() of before.
+    void recall(std::vector<Memory> memory) { memory_ = std::move(memory); }
 
     /// Replaces the list by contacts that harden with depth, without shifts and adhesion from memory. For solvers that use
     /// second derivatives. `hardens_m` is h.
@@ -98,11 +108,6 @@ class Contacts {
     double max_penetration(const Points& x) const;
 
   private:
-    struct Memory {
-        int slot;
-        double shift_m;
-        std::optional<double> let_go_m;
-    };
     std::vector<Contact> contacts_;
     std::vector<Memory> memory_;  // ascending slots
 };

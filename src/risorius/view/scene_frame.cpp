@@ -226,8 +226,7 @@ std::string encode_skull(const face::Skull& skull) {
     return arrays.message(kSkullKind, head);
 }
 
-std::string encode_mesh(const geom::PolygonMesh& mesh, const std::string& file,
-                        const std::string& rig) {
+std::string encode_mesh(const geom::PolygonMesh& mesh, const MeshLabels& labels) {
     Arrays arrays;
     Json groups = Json::array();
     std::vector<std::uint32_t> triangles;
@@ -237,12 +236,15 @@ std::string encode_mesh(const geom::PolygonMesh& mesh, const std::string& file,
         for (long f = 0; f < of_group.rows(); ++f)
             for (int k = 0; k < 3; ++k)
                 triangles.push_back(static_cast<std::uint32_t>(of_group(f, k)));
-        groups.push_back(json_object({{"name", mesh.group_names[g]},
-                                      {"from", from},
-                                      {"count", triangles.size() / 3 - from}}));
+        groups.push_back(json_object(
+            {{"name", mesh.group_names[g]},
+             {"from", from},
+             {"count", triangles.size() / 3 - from},
+             {"role", g < labels.role_of_group.size() ? labels.role_of_group[g] : std::string()}}));
     }
-    const Json head = json_object({{"file", file},
-                                   {"rig", rig},
+    const Json head = json_object({{"file", labels.file},
+                                   {"rig", labels.rig},
+                                   {"roles", labels.roles},
                                    {"vertices", arrays.add(mesh.positions)},
                                    {"triangles", arrays.add(triangles)},
                                    {"groups", groups}});

@@ -34,10 +34,15 @@ std::string encode_picture(const std::string& material, const Image& picture);
 std::string encode_muscles(const face::MuscleSurfaces& surfaces);
 /// The bones under the skin, at rest: {"cranium": {"vertices", "triangles"}, "mandible": the same}. A pose has the motion of the mandible.
 std::string encode_skull(const face::Skull& skull);
-/// A mesh that landmarks are put on: {"file", "rig", "vertices", "triangles", "groups": [{"name", "from", "count"}]}, where a group is
-/// a range of triangles.
-std::string encode_mesh(const geom::PolygonMesh& mesh, const std::string& file,
-                        const std::string& rig);
+/// What is said of a mesh that landmarks are put on.
+struct MeshLabels {
+    std::string file, rig;             ///< names below the project; where its rig is written
+    std::vector<std::string> roles{};  ///< that a group may have (rig::part_roles())
+    std::vector<std::string> role_of_group{};  ///< as their names say; "" where a name says nothing
+};
+/// A mesh that landmarks are put on: {"file", "rig", "roles", "vertices", "triangles", "groups": [{"name", "from", "count", "role"}]},
+/// where a group is a range of triangles.
+std::string encode_mesh(const geom::PolygonMesh& mesh, const MeshLabels& labels);
 
 /// A file that has been made, as it is. `type`: "video/mp4".
 std::string encode_file(const std::string& name, const std::string& type, const std::string& bytes);

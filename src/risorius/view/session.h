@@ -5,7 +5,8 @@
 /// Messages are JSON texts. They take effect between two ticks; a tick is a step of 1/60 s. The same messages between the same ticks
 /// give the same poses, so that a session can be replayed from its log.
 ///
-/// Moments of the script have been computed from its start, as `render` computes them, and are kept (detail/take.h). Overrides and the pulls
+/// Moments of the script have been computed from its start, as `render` computes them, and are kept (detail/take.h). After an edit the face
+/// goes on from a state that it had before the edit (detail/moments.h). Overrides and the pulls
 /// of a hand are not part of the script: while there are any, the face goes on from where it is. What they do while recording is on and the
 /// script plays becomes keys and "pulls" when it stops, as one step of undo.
 #pragma once
@@ -25,6 +26,7 @@
 #include "risorius/track/script.h"
 #include "risorius/track/timeline.h"
 #include "risorius/view/detail/channel_recorder.h"
+#include "risorius/view/detail/moments.h"
 #include "risorius/view/detail/pose_frame.h"
 #include "risorius/view/detail/take.h"
 #include "risorius/view/document.h"
@@ -116,7 +118,7 @@ class Session {
     void use(track::ScriptDescription script);
     void make_live();
     long first_change(const track::Timeline& before, const track::Timeline& after) const;
-    void wake() { quiet_ = 0; }
+    void wake() { quiet_ = held_ = 0; }
     bool touched() const { return !overrides_.empty() || !hands_.empty(); }
     long last_frame() const;
     double time_s() const { return static_cast<double>(frame_) / 60; }
@@ -132,6 +134,7 @@ class Session {
     bool tick_seeking();
     bool tick_live();
     bool compute_until(long frame);
+    void begin_take(const face::DriveAt& drive);
     void show(const face::FacePose& pose, double t_s, const track::Drive& drive);
     void show_taken(long frame);
     void recover();
@@ -155,12 +158,15 @@ class Session {
     bool recording_ = false;
     Recording recorded_;  // since recording began
     Take take_;
+    Moments moments_;       // of the frames that take_ has
     long frame_ = 0;        // the playhead, 1/60 s
     long face_frame_ = -1;  // the frame of the take at which the face is, or -1
     long wanted_ = -1;      // the frame to be computed while not playing, or -1
     bool playing_ = false, loop_ = false;
     int every_ = 1, waited_ = 0;  // play: ticks per frame
     int quiet_ = kQuietTicks;     // ticks without motion
+    int held_ = 0;        // ticks with the drive of the playhead held, since something changed
+    bool fails_ = false;  // the script cannot be computed up to the playhead
     Points last_nodes_;
     bool with_strain_ = false, with_muscles_ = false;
     std::string selected_;
@@ -176,7 +182,7 @@ class Session {
     std::vector<std::string> events_;
     bool document_changed_ = false;
 
-    static constexpr int kQuietTicks = 12;
+    static constexpr int kQuietTicks = 12, kLongestHold = 90;
 };
 
 /// Makes the ticks and messages of a log. Call it with a session that has just been built from the same inputs.

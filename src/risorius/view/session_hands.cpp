@@ -233,19 +233,19 @@ std::string Session::state() const {
                     selected[side == Side::kLeft ? "l" : "r"] = json_object(
                         {{"force_n", found->force_n}, {"length_mm", 1e3 * found->length_m}});
     }
-    return json_text(
-        json_object({{"type", "state"},
-                     {"tick", ticks_},
-                     {"t_s", time_s()},
-                     {"playing", playing_},
-                     {"recording", recording_},
-                     {"computing", (playing_ && !take_.has(frame_)) || wanted_ >= 0},
-                     {"computed_s", static_cast<double>(std::max(0L, take_.valid() - 1)) / 60},
-                     {"resting", !playing_ && quiet_ >= kQuietTicks},
-                     {"dirty", document_.dirty()},
-                     {"overrides", overrides},
-                     {"pulls", pulls},
-                     {"selected", selected}}));
+    return json_text(json_object(
+        {{"type", "state"},
+         {"tick", ticks_},
+         {"t_s", time_s()},
+         {"playing", playing_},
+         {"recording", recording_},
+         {"computing", (playing_ && !take_.has(frame_)) || (wanted_ >= 0 && !touched())},
+         {"computed_s", static_cast<double>(std::max(0L, take_.valid() - 1)) / 60},
+         {"resting", !playing_ && (touched() || wanted_ < 0) && quiet_ >= kQuietTicks},
+         {"dirty", document_.dirty()},
+         {"overrides", overrides},
+         {"pulls", pulls},
+         {"selected", selected}}));
 }
 
 }  // namespace risorius::view

@@ -335,6 +335,36 @@ void FaceImpl::go_back_to(State found) {
     in_step = false;
 }
 
+FaceImpl::Kept FaceImpl::keep() const {
+    return {now,
+            before,
+            earlier,
+            motion.past(),
+            last_move,
+            went_back,
+            in_step,
+            done,
+            tissue.contacts().memory(),
+            tissue.solids().factorised()};
+}
+
+void FaceImpl::go_back_to(const Kept& then) {
+    equilibrium->forget(true);
+    dynamics->set_activation(then.now.activation);
+    now = then.now;
+    before = then.before;
+    earlier = then.earlier;
+    motion.go_back_to(then.motion);
+    last_move = then.last_move;
+    went_back = then.went_back;
+    in_step = then.in_step;
+    done = then.done;
+    history.resize(std::min(history.size(), static_cast<std::size_t>(done)));
+    tissue.recall_contacts(then.contacts);
+    tissue.solids().go_back_to(then.solids);
+    set_boundary_conditions(now.activation, now.drive);
+}
+
 double FaceImpl::substeps_until(double t_s) const {
     const double place = t_s / substep_s;
     const double nearest = std::round(place);

@@ -39,6 +39,17 @@ struct FaceImpl {
         JawDynamics::State jaw;  ///< used only when muscles move the jaw
     };
 
+    /// All that the steps after one moment depend on, besides the drive.
+    struct Kept {
+        State now, before, earlier;
+        TissueMotion::Past motion;
+        Points last_move;
+        bool went_back, in_step;
+        long done;
+        std::vector<tissue::Contacts::Memory> contacts;
+        std::vector<MuscleSolids::Factorised> solids;
+    };
+
     rig::RigDescription rig;
     Quality quality;
     int substeps;        ///< per step
@@ -102,6 +113,8 @@ struct FaceImpl {
     void start(const DriveAt& drive);
     /// Puts the face into an equilibrium that was found before. Throws std::logic_error when muscles move the jaw.
     void go_back_to(State found);
+    Kept keep() const;
+    void go_back_to(const Kept& then);
     StepStats substep(const DriveAt& drive_at);
     StepStats solve_equilibrium(const Eigen::VectorXd& activation, const track::Drive& drive,
                                 const StaticOptions& options);

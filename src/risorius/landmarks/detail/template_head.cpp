@@ -6,11 +6,11 @@
 
 namespace risorius::landmarks {
 
-std::map<std::string, Vec3> known_landmarks(const std::filesystem::path& file,
-                                            const geom::PolygonMesh& mesh,
-                                            const rig::Atlas& atlas) {
+namespace {
+
+void add_landmarks(const std::filesystem::path& file, const geom::PolygonMesh& mesh,
+                   const rig::Atlas& atlas, std::map<std::string, Vec3>& out) {
     const std::string place = file.string() + ":/landmarks";
-    std::map<std::string, Vec3> out;
     for (const auto& [id, landmark] : rig::read_landmarks(file)) {
         if (!atlas.landmark(id))
             throw Error(place + "/" + id, "a landmark of the atlas", in_quotes(id));
@@ -23,9 +23,20 @@ std::map<std::string, Vec3> known_landmarks(const std::filesystem::path& file,
                       ? Vec3(mesh.positions.row(landmark.vertex).transpose())
                       : Vec3((mesh.from_file * landmark.xyz.homogeneous()).head<3>());
     }
+}
+
+}  // namespace
+
+std::map<std::string, Vec3> known_landmarks(const TemplateFiles& files,
+                                            const geom::PolygonMesh& mesh,
+                                            const rig::Atlas& atlas) {
+    std::map<std::string, Vec3> out;
+    add_landmarks(files.landmarks, mesh, atlas, out);
+    if (!files.by_definition.empty()) add_landmarks(files.by_definition, mesh, atlas, out);
     for (const std::string& id : rig::required_landmarks())
         if (!out.count(id))
-            throw Error(place, "the landmarks that a rig needs", "none for " + in_quotes(id));
+            throw Error(files.landmarks.string() + ":/landmarks", "the landmarks that a rig needs",
+                        "none for " + in_quotes(id));
     return out;
 }
 

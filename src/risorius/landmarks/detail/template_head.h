@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "risorius/landmarks/detail/face_points.h"
+#include "risorius/landmarks/propose_landmarks.h"
 #include "risorius/rig/atlas.h"
 #include "risorius/rig/rig_description.h"
 
@@ -24,7 +25,7 @@ struct TemplateHead {
 };
 
 /// Reads the landmarks of a mesh, in its units and axes. Throws Error when one that a rig needs is missing.
-std::map<std::string, Vec3> known_landmarks(const std::filesystem::path& file,
+std::map<std::string, Vec3> known_landmarks(const TemplateFiles& files,
                                             const geom::PolygonMesh& mesh, const rig::Atlas& atlas);
 
 /// `landmarks`: in the units of the mesh. Throws Error when the network does not see the face.

@@ -79,6 +79,17 @@ class MuscleSolids {
 
     /// Forgets all factorised matrices, so that the next step depends on its arguments alone.
     void forget();
+    /// Where the matrix of a group of muscles was factorised last.
+    struct Factorised {
+        Points at;                 ///< nodes of the group, m
+        std::vector<double> with;  ///< activations of its muscles
+        double for_s = 0;          ///< length of the step, s; 0: never
+        Rigid mandible = Rigid::Identity();
+    };
+    /// Return this of each group, and factorise anew as then, which takes milliseconds: the next steps are those that followed. Afterwards
+    /// the boundary conditions have to be set.
+    std::vector<Factorised> factorised() const;
+    void go_back_to(const std::vector<Factorised>& factorised);
     /// Prepares the minimisation of a step of length h, s, that starts at x.
     void begin_step(double h, const Points& x, const Eigen::VectorXd& activation);
 
@@ -174,9 +185,7 @@ class MuscleSolids {
         std::vector<std::size_t> support;
         std::unique_ptr<solve::HessianBuilder> hessian;
         solve::SymmetricFactor factor;
-        Points made_at;
-        std::vector<double> made_with;
-        double made_for_s = 0;
+        Factorised made;
         mutable std::vector<double> b, y;
     };
     void build_parts(const rig::RigDescription& rig);

@@ -16,7 +16,38 @@ constexpr double kRefreshMove_m = 1e-3,
 }  // namespace
 
 void MuscleSolids::forget() {
-    for (Group& group : groups_) group.made_for_s = 0;
+    for (Group& group : groups_) group.made.for_s = 0;
+}
+
+std::vector<MuscleSolids::Factorised> MuscleSolids::factorised() const {
+    std::vector<Factorised> all;
+    for (const Group& group : groups_) all.push_back(group.made);
+    return all;
+}
+
+void MuscleSolids::go_back_to(const std::vector<Factorised>& factorised) {
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+        Group& group = groups_[g];
+        const Factorised& made = factorised[g];
+        if (made.for_s == 0) {
+            group.made.for_s = 0;
+            continue;
+        }
+        set_bodies({Rigid::Identity(), made.mandible});
+        Points x = Points::Zero(first_ + nodes(), 3);
+        for (std::size_t i = 0; i < group.node.size(); ++i)
+            x.row(first_ + group.node[i]) = made.at.row(static_cast<long>(i));
+        int columns = 0;
+        for (const Part& part : parts_) columns = std::max(columns, part.place().column + 1);
+        Eigen::VectorXd activation = Eigen::VectorXd::Zero(columns);
+        for (std::size_t p = 0; p < group.part.size(); ++p) {
+            Part& part = parts_[static_cast<std::size_t>(group.part[p])];
+            activation[part.place().column] = made.with[p];
+            take(part, x, part.x);
+            part.belly->begin_step(made.for_s, part.x);
+        }
+        refresh(group, made.for_s, x, activation);
+    }
 }
 
 void MuscleSolids::begin_step(double h, const Points& x, const Eigen::VectorXd& activation) {
@@ -26,13 +57,13 @@ void MuscleSolids::begin_step(double h, const Points& x, const Eigen::VectorXd& 
         part.belly->begin_step(h, part.x);
     }
     for (Group& group : groups_) {
-        bool known = group.made_for_s == h;
+        bool known = group.made.for_s == h;
         for (std::size_t p = 0; known && p < group.part.size(); ++p)
             known = std::abs(
                         activation[parts_[static_cast<std::size_t>(group.part[p])].place().column] -
-                        group.made_with[p]) < kRefreshActivation;
+                        group.made.with[p]) < kRefreshActivation;
         for (std::size_t i = 0; known && i < group.node.size(); ++i)
-            known = (x.row(first_ + group.node[i]) - group.made_at.row(static_cast<long>(i)))
+            known = (x.row(first_ + group.node[i]) - group.made.at.row(static_cast<long>(i)))
                         .squaredNorm() < kRefreshMove_m * kRefreshMove_m;
         if (!known) refresh(group, h, x, activation);
     }
@@ -73,7 +104,7 @@ void MuscleSolids::build_groups() {
         for (int node : group.node) fixed.push_back(on_bone(node) ? 1 : 0);
         group.hessian =
             std::make_unique<solve::HessianBuilder>(static_cast<int>(group.node.size()), fixed);
-        group.made_with.resize(group.part.size());
+        group.made.with.resize(group.part.size());
         group.b.resize(3 * group.node.size());
         group.y.resize(3 * group.node.size());
     }
@@ -81,16 +112,17 @@ void MuscleSolids::build_groups() {
 
 void MuscleSolids::refresh(Group& group, double h, const Points& x,
                            const Eigen::VectorXd& activation) {
-    group.made_for_s = h;
-    group.made_at.resize(static_cast<long>(group.node.size()), 3);
+    group.made.for_s = h;
+    group.made.mandible = mandible_;
+    group.made.at.resize(static_cast<long>(group.node.size()), 3);
     for (std::size_t i = 0; i < group.node.size(); ++i)
-        group.made_at.row(static_cast<long>(i)) = x.row(first_ + group.node[i]);
+        group.made.at.row(static_cast<long>(i)) = x.row(first_ + group.node[i]);
     solve::HessianBuilder& hessian = *group.hessian;
     hessian.clear();
     for (std::size_t p = 0; p < group.part.size(); ++p) {
         Part& part = parts_[static_cast<std::size_t>(group.part[p])];
         const std::vector<int>& row = group.row[p];
-        const double a = group.made_with[p] = activation[part.place().column];
+        const double a = group.made.with[p] = activation[part.place().column];
         take(part, x, part.x);
         part.belly->add_stiffness(part.x, a, row, hessian);
     }

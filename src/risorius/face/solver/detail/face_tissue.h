@@ -93,6 +93,9 @@ class FaceTissue {
     /// (contacts.h).
     void find_contacts(const Points& x);
     void forget_contacts() { contacts_.forget(); }
+    void recall_contacts(const std::vector<tissue::Contacts::Memory>& memory) {
+        contacts_.recall(memory);
+    }
     /// Searches contact pairs at x and returns their penetration. Does not change the pairs in use.
     Penetration penetration(const Points& x) const;
     /// Returns x with penetrations resolved for display, see separation.h.

@@ -47,7 +47,16 @@ class TissueMotion {
     void end(const Points& x);
 
     /// Returns the velocity within the head frame, n x 3, m/s.
-    Points velocity() const { return (now_ - before_) / step_s_; }
+    Points velocity() const { return (past_.now - past_.before) / step_s_; }
+
+    /// What the next step depends on.
+    struct Past {
+        Points now, before;  ///< positions in the head frame, n x 3, m
+        Points space_now, space_before, velocity, velocity_before;
+        Rigid head = Rigid::Identity(), moved_before = Rigid::Identity();
+    };
+    const Past& past() const { return past_; }
+    void go_back_to(const Past& past) { past_ = past; }
 
   private:
     Rigid felt(const Rigid& head);
@@ -55,10 +64,8 @@ class TissueMotion {
     const Neck& neck_;
     double step_s_;
     std::vector<double> fraction_;  ///< per node, fraction of the head's motion that it follows
-    Points now_, before_;           ///< positions in the head frame, m
-    Points space_now_, space_before_, velocity_, velocity_before_;
-    Rigid head_ = Rigid::Identity(), next_head_ = Rigid::Identity();
-    Rigid moved_before_ = Rigid::Identity();
+    Past past_;
+    Rigid next_head_ = Rigid::Identity();
     Step step_;
 };
 
