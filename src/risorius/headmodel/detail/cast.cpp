@@ -28,6 +28,7 @@ const std::pair<double IdentityHair::*, Range> kBlendedHair[] = {
     {&IdentityHair::brow_density, kBrowDensityRange},
     {&IdentityHair::brow_width, kBrowWidthRange},
     {&IdentityHair::skin_gloss, kSkinGlossRange},
+    {&IdentityHair::complexion, kComplexionRange},
     {&IdentityHair::lock_length, kLockLengthRange},
     {&IdentityHair::lock_wave, kShareRange},
     {&IdentityHair::fringe, kShareRange},

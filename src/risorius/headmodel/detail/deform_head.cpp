@@ -40,7 +40,7 @@ std::vector<Force> forces_of_person(const DesignTables& tables, const Identity& 
         const double strength = handle.parameter == "sex"   ? identity.sex
                                 : handle.parameter == "age" ? age
                                 : handle.parameter == kFoldsOfAge
-                                    ? std::max(0.0, age)
+                                    ? std::max(0.0, identity.age - 30) / 40
                                     : without_dents(handle, strengths.at(handle.parameter));
         if (strength != 0) forces.push_back({handle, strength});
     }

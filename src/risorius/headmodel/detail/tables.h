@@ -82,7 +82,7 @@ struct PigmentTone {
     double haemoglobin;  ///< absorption of a standard deviation of redness
 };
 
-/// Handles of this name move a head with the years from 40 on: folds that the young do not have.
+/// Handles of this name move a head with the years from 30 on, per 40 years: folds that the young do not have.
 inline constexpr const char* kFoldsOfAge = "aged";
 
 /// Effect of one parameter on the average head: everything within `reach` of a place is moved along `by`, or scaled about it, on both sides.
