@@ -87,6 +87,8 @@ struct Appearance {
     double brow_width = 1.0;    ///< height of the brows as a multiple of the usual one
     /// 0..2, what the skin mirrors as a multiple of the usual: powdered to oily
     double skin_gloss = 1.0;
+    /// 0..2, how much of what `seed` draws beside the tones is seen: shade around the eyes, redness, lips, brows, lashes, moles
+    double complexion = 0.0;
     std::string garment = "none";  ///< a name of garment_names(): what the shoulders wear
     Vec3 garment_tone{0.30, 0.32, 0.36};
 };

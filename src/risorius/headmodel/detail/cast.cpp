@@ -24,13 +24,10 @@ constexpr double Identity::*kBlended[] = {
     &Identity::sex,      &Identity::age,     &Identity::freckles, &Identity::scalp_hair,
     &Identity::hairline, &Identity::temples, &Identity::beard,    &Identity::lipstick};
 const std::pair<double IdentityHair::*, Range> kBlendedHair[] = {
-    {&IdentityHair::age_lines, kShareRange},
-    {&IdentityHair::brow_density, kBrowDensityRange},
-    {&IdentityHair::brow_width, kBrowWidthRange},
-    {&IdentityHair::skin_gloss, kSkinGlossRange},
-    {&IdentityHair::lock_length, kLockLengthRange},
-    {&IdentityHair::lock_wave, kShareRange},
-    {&IdentityHair::fringe, kShareRange},
+    {&IdentityHair::age_lines, kShareRange},       {&IdentityHair::brow_density, kBrowDensityRange},
+    {&IdentityHair::brow_width, kBrowWidthRange},  {&IdentityHair::skin_gloss, kSkinGlossRange},
+    {&IdentityHair::complexion, kComplexionRange}, {&IdentityHair::lock_length, kLockLengthRange},
+    {&IdentityHair::lock_wave, kShareRange},       {&IdentityHair::fringe, kShareRange},
     {&IdentityHair::parting, kPartingRange}};
 constexpr std::string Identity::*kTones[] = {&Identity::skin, &Identity::iris, &Identity::hair};
 

@@ -36,9 +36,11 @@ std::vector<Force> forces_of_person(const DesignTables& tables, const Identity& 
     std::vector<Force> forces;
     const auto strengths = person_shape(identity, tables);
     for (const Handle& handle : tables.population_handles) {
-        const double strength = handle.parameter == "sex" ? identity.sex
-                                : handle.parameter == "age"
-                                    ? (identity.age - 40.0) / 40.0
+        const double age = (identity.age - 40.0) / 40.0;
+        const double strength = handle.parameter == "sex"   ? identity.sex
+                                : handle.parameter == "age" ? age
+                                : handle.parameter == kFoldsOfAge
+                                    ? std::max(0.0, identity.age - 30) / 40
                                     : without_dents(handle, strengths.at(handle.parameter));
         if (strength != 0) forces.push_back({handle, strength});
     }

@@ -14,9 +14,9 @@ namespace risorius::headmodel {
 
 const std::vector<std::string_view>& identity_hair_keys() {
     static const std::vector<std::string_view> keys{
-        "hair_style",   "hairline_form", "grey_hair",  "age_lines",  "seed",
-        "beard_form",   "brow_density",  "brow_width", "skin_gloss", "garment",
-        "garment_tone", "lock_length",   "lock_wave",  "fringe",     "parting"};
+        "hair_style",   "hairline_form", "grey_hair",  "age_lines", "seed",         "beard_form",
+        "brow_density", "brow_width",    "skin_gloss", "garment",   "garment_tone", "lock_length",
+        "lock_wave",    "fringe",        "parting",    "complexion"};
     return keys;
 }
 
@@ -32,6 +32,7 @@ IdentityHair read_identity_hair(const JsonCursor& json) {
         hair.brow_density = json.at("brow_density").number(kBrowDensityRange);
     if (json.has("brow_width")) hair.brow_width = json.at("brow_width").number(kBrowWidthRange);
     if (json.has("skin_gloss")) hair.skin_gloss = json.at("skin_gloss").number(kSkinGlossRange);
+    if (json.has("complexion")) hair.complexion = json.at("complexion").number(kComplexionRange);
     if (json.has("lock_length")) hair.lock_length = json.at("lock_length").number(kLockLengthRange);
     if (json.has("lock_wave")) hair.lock_wave = json.at("lock_wave").number(kShareRange);
     if (json.has("fringe")) hair.fringe = json.at("fringe").number(kShareRange);
@@ -76,6 +77,7 @@ void write_identity_hair(const IdentityHair& hair, Json& json) {
     if (const Vec3& tone = hair.garment_tone; tone != usual.garment_tone)
         json["garment_tone"] = {tone.x(), tone.y(), tone.z()};
     if (hair.skin_gloss != usual.skin_gloss) json["skin_gloss"] = hair.skin_gloss;
+    if (hair.complexion != usual.complexion) json["complexion"] = hair.complexion;
 }
 
 }  // namespace risorius::headmodel

@@ -14,7 +14,7 @@
 namespace risorius::headmodel {
 
 inline constexpr Range kShareRange{0, 1}, kBrowDensityRange{0, 3}, kBrowWidthRange{0.3, 2},
-    kSkinGlossRange{0, 2}, kLockLengthRange{0.5, 1.5}, kPartingRange{-2, 2};
+    kSkinGlossRange{0, 2}, kLockLengthRange{0.5, 1.5}, kPartingRange{-2, 2}, kComplexionRange{0, 2};
 
 struct IdentityHair {
     std::string style = "shaven";        ///< a name of render::hair_style_names()
@@ -30,6 +30,8 @@ struct IdentityHair {
     double brow_density = 1;             ///< 0..3, hairs of the brows against the usual number
     double brow_width = 1;               ///< 0.3..2, height of the brows against the usual one
     double skin_gloss = 1;  ///< 0..2, what the skin mirrors against the usual: powdered to oily
+    double complexion =
+        0;  ///< 0..2, how much of what the seed draws of shades, redness and moles is seen
     std::string garment = "none";         ///< a name of render::garment_names()
     Vec3 garment_tone{0.30, 0.32, 0.36};  ///< sRGB
     bool operator==(const IdentityHair&) const = default;

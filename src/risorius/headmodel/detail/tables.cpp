@@ -256,6 +256,7 @@ void read_population(const std::filesystem::path& file, DesignTables& tables) {
     }
     for (const Handle& handle : tables.population_handles)
         if (handle.parameter != "sex" && handle.parameter != "age" &&
+            handle.parameter != kFoldsOfAge &&
             std::none_of(tables.population.begin(), tables.population.end(),
                          [&](const auto& p) { return p.name == handle.parameter; }))
             throw Error(file.string(), "a row of " + handle.parameter, "none");

@@ -82,6 +82,9 @@ struct PigmentTone {
     double haemoglobin;  ///< absorption of a standard deviation of redness
 };
 
+/// Handles of this name move a head with the years from 30 on, per 40 years: folds that the young do not have.
+inline constexpr const char* kFoldsOfAge = "aged";
+
 /// Effect of one parameter on the average head: everything within `reach` of a place is moved along `by`, or scaled about it, on both sides.
 /// kNear acts in front of the globe, but not on the edge of the lid, and kCorner also there; the lean ones move the sides against each other.
 struct Handle {

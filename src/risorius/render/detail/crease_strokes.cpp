@@ -111,7 +111,7 @@ class Creases {
 
     void forehead() {
         const Vec3 *g = mark("g"), *tr = mark("tr"), *temple = mark("ft_l");
-        const double deep = own_.forehead * grown(30, 65, years_);
+        const double deep = own_.forehead * grown(25, 54, years_);
         const int rows = 3 + static_cast<int>(3 * random_.next());
         if (!g || !tr || !temple) return;
         for (int row = 0; row < rows; ++row) {
@@ -136,7 +136,7 @@ class Creases {
     void glabella(double side) {
         const Vec3* g = mark("g");
         if (!g) return;
-        const double deep = own_.glabella * grown(35, 65, years_) * even(0.4, 1.0),
+        const double deep = own_.glabella * grown(26, 56, years_) * even(0.4, 1.0),
                      x = side * even(0.005, 0.008);
         crease(bow(*g + Vec3(x, -0.004, 0), *g + Vec3(1.3 * x, even(0.008, 0.013), 0),
                    Vec3(-0.1 * x, 0, 0)),
@@ -153,7 +153,7 @@ class Creases {
             const Vec3 way(side * 0.75 * std::cos(angle), std::sin(angle), -0.66 * std::cos(angle));
             const Vec3 from = *ex + 0.007 * way;
             crease(bow(from, from + length * way, Vec3(0, -0.0012, 0)), 0.6,
-                   own_.crows_feet * grown(35, 65, years_) * even(0.5, 1.0));
+                   own_.crows_feet * grown(26, 55, years_) * even(0.5, 1.0));
         }
     }
     void below_eye(double side) {
@@ -162,21 +162,21 @@ class Creases {
         const double x = side;
         crease(
             bow(*en + Vec3(0, -0.006, 0), *pi + Vec3(0.006 * x, -0.0105, 0), Vec3(0, -0.0025, 0)),
-            2.2, own_.below_eye * 0.55 * grown(30, 60, years_));
+            2.2, own_.below_eye * 0.8 * grown(25, 52, years_));
         for (int i = 0; i < 3; ++i)
             crease(bow(*pi + Vec3(-0.008 * x, -0.0035 - 0.0022 * i, 0),
                        *ex + Vec3(-0.001 * x, -0.005 - 0.0024 * i, 0), Vec3(0, -0.0016, 0)),
-                   0.45, own_.below_eye * grown(40, 65, years_) * even(0.3, 0.8));
+                   0.45, own_.below_eye * grown(30, 57, years_) * even(0.3, 0.8));
     }
     void cheek(double side) {
         const Vec3 *al = mark("al", side), *ch = mark("ch", side);
         if (!al || !ch) return;
         crease(bow(*al + Vec3(side * 0.003, 0.004, -0.002), *ch + Vec3(side * 0.010, 0.001, -0.004),
                    Vec3(side * 0.003, 0.001, 0)),
-               1.5, own_.nasolabial * grown(30, 60, years_) * even(0.8, 1.0));
+               1.5, own_.nasolabial * grown(25, 52, years_) * even(0.8, 1.0));
         crease(bow(*ch + Vec3(side * 0.002, -0.002, 0), *ch + Vec3(side * 0.006, -0.019, -0.006),
                    Vec3(side * 0.0015, 0, 0)),
-               1.2, own_.marionette * grown(45, 70, years_) * even(0.7, 1.0));
+               1.2, own_.marionette * grown(34, 62, years_) * even(0.7, 1.0));
     }
     void upper_lip() {
         const Vec3 *ls = mark("ls"), *left = mark("ulc_l"), *right = mark("ulc_r");
@@ -188,7 +188,7 @@ class Creases {
             const Vec3 border = *ls + std::abs(s) * 1.25 * (corner - *ls);
             crease(bow(border + Vec3(0, 0.0006, 0),
                        border + Vec3(0.0012 * s, even(0.004, 0.0065), 0), Vec3::Zero()),
-                   0.45, own_.upper_lip * grown(45, 70, years_) * even(0.3, 0.7));
+                   0.45, own_.upper_lip * grown(42, 66, years_) * even(0.3, 0.7));
         }
     }
 

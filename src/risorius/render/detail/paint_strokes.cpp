@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
+#include "risorius/render/detail/complexion.h"
 #include "risorius/render/detail/gl_context.h"
 #include "risorius/render/detail/shader_paint.h"
 #include "risorius/render/detail/skin_paint.h"
@@ -168,6 +169,29 @@ void freckles(const Scene& scene, const SkinPlan& plan, RandomSequence& random, 
     }
 }
 
+/// Single dark spots of some millimetres, on the face.
+void moles(const Scene& scene, const Vec3& centre, const std::vector<unsigned>& skin,
+           StrokePad& pad) {
+    const int count = complexion_of(scene.appearance).moles;
+    if (count == 0 || skin.size() < 3) return;
+    RandomSequence random(scene.appearance.seed * 6007U + 13U);
+    const Vec3 tint =
+        linear_from_srgb(scene.appearance.skin_tone).cwiseProduct(Vec3(0.36, 0.23, 0.18));
+    for (int left = count, tries = 0; left > 0 && tries < 4000; ++tries) {
+        const double pick = random.next();
+        const auto first =
+            3 * static_cast<std::size_t>(pick * static_cast<double>(skin.size() / 3));
+        const Vec3 at = scene.rest.row(static_cast<Eigen::Index>(skin[first])).transpose();
+        if (at.z() - centre.z() < 0.045 || at.y() - centre.y() > 0.055) continue;
+        const double size = random.next(), strength = random.next();
+        const Vec2 place = paint_place(at, centre);
+        const double half = kMapPerMetre * (0.0006 + 0.0011 * size * size);
+        pad.add(place - Vec2(1.2 * half, 0), place + Vec2(1.2 * half, 0), half, tint,
+                0.55 + 0.40 * strength);
+        --left;
+    }
+}
+
 }  // namespace
 
 EarMask::EarMask(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
@@ -249,6 +273,7 @@ std::vector<StrokeVertex> plan_strokes(const Scene& scene, const SkinPlan& plan,
     RandomSequence random(scene.appearance.seed);
     StrokePad pad;
     freckles(scene, plan, random, pad);
+    moles(scene, centre, skin, pad);
     scalp(scene, plan, centre, EarMask(scene, plan, centre, skin), random, pad);
     beard(scene, plan, centre, skin, random, pad);
     for (const std::vector<Vec3>& line : plan.brows) brow(scene, line, centre, random, pad);
@@ -259,8 +284,7 @@ std::vector<StrokeVertex> plan_lip_ground(const Scene& scene, const SkinPlan& pl
                                           const Vec3& centre) {
     std::vector<StrokeVertex> fan;
     if (plan.lip_outline.empty()) return fan;
-    const Eigen::Vector3f tone =
-        (0.85 * linear_from_srgb(scene.appearance.lip_tone)).cwiseSqrt().cast<float>();
+    const Eigen::Vector3f tone = (0.85 * lip_tone_at(scene.appearance)).cwiseSqrt().cast<float>();
     Vec3 middle = Vec3::Zero();
     for (const Vec3& p : plan.lip_outline)
         middle += p / static_cast<double>(plan.lip_outline.size());

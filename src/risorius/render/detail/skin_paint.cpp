@@ -19,13 +19,13 @@ namespace risorius::render {
 namespace {
 
 void set_plan(const GlProgram& program, const SkinPlan& plan, const Appearance& appearance) {
-    const auto colour = [&](const char* name, const Vec3& srgb) {
-        const Eigen::Vector3f linear = linear_from_srgb(srgb).cast<float>();
+    const auto colour = [&](const char* name, const Vec3& tone) {
+        const Eigen::Vector3f linear = tone.cast<float>();
         glUniform3fv(program.location(name), 1, linear.data());
     };
-    colour("skin_tone", appearance.skin_tone);
-    colour("lip_tone", appearance.lip_tone);
-    colour("hair_tone", hair_tone_at(appearance));
+    colour("skin_tone", linear_from_srgb(appearance.skin_tone));
+    colour("lip_tone", lip_tone_at(appearance));
+    colour("hair_tone", linear_from_srgb(hair_tone_at(appearance)));
     glUniform1f(program.location("scalp_hair"), static_cast<float>(scalp_paint(appearance)));
     glUniform1f(program.location("ring"), static_cast<float>(plan.ring_m));
     glUniform1f(program.location("seed"), static_cast<float>(appearance.seed % 1000));

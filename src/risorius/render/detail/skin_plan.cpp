@@ -7,6 +7,7 @@
 #include <string>
 
 #include "risorius/render/detail/beard_form.h"
+#include "risorius/render/detail/complexion.h"
 #include "risorius/render/detail/lock_style.h"
 #include "risorius/render/detail/skin_paint.h"
 
@@ -19,27 +20,28 @@ struct ZoneRecipe {
     double spread_m;
     Vec3 log_tint;
     double oil;
-    Vec3 offset{0, 0, 0};  ///< m, of the left side
+    Vec3 offset{0, 0, 0};               ///< m, of the left side
+    double Complexion::*own = nullptr;  ///< what a person has more or less of
 };
 
 // Where blood is close under the skin, where the lids let it shine through, and where the face is oily.
 const ZoneRecipe kRecipes[] = {
-    {"ma", true, 0.017, {-0.02, -0.15, -0.13}, 0.10, {-0.004, -0.004, 0}},
-    {"mc", true, 0.018, {-0.02, -0.11, -0.09}, 0.0},
-    {"prn", false, 0.011, {0.0, -0.17, -0.15}, 0.30},
-    {"prn", false, 0.008, {0.02, -0.18, -0.15}, 0.05, {0, -0.009, -0.006}},
-    {"al", true, 0.009, {-0.02, -0.25, -0.21}, 0.20},
+    {"ma", true, 0.017, {-0.02, -0.15, -0.13}, 0.10, {-0.004, -0.004, 0}, &Complexion::cheeks},
+    {"mc", true, 0.018, {-0.02, -0.11, -0.09}, 0.0, {0, 0, 0}, &Complexion::cheeks},
+    {"prn", false, 0.011, {0.0, -0.17, -0.15}, 0.30, {0, 0, 0}, &Complexion::nose},
+    {"prn", false, 0.008, {0.02, -0.18, -0.15}, 0.05, {0, -0.009, -0.006}, &Complexion::nose},
+    {"al", true, 0.009, {-0.02, -0.25, -0.21}, 0.20, {0, 0, 0}, &Complexion::nose},
     {"sn", false, 0.007, {0.0, -0.08, -0.06}, -0.12, {0, 0.004, 0.005}},
     {"rhi", false, 0.010, {0, -0.04, -0.03}, 0.25},
     {"mef", false, 0.026, {0.0, 0.02, -0.02}, 0.22},
     {"g", false, 0.014, {0, -0.03, -0.02}, 0.18},
-    {"pg", false, 0.012, {-0.02, -0.10, -0.08}, 0.12},
+    {"pg", false, 0.012, {-0.02, -0.10, -0.08}, 0.12, {0, 0, 0}, &Complexion::cheeks},
     {"sa", true, 0.016, {-0.04, -0.22, -0.18}, 0.0},
     {"sba", true, 0.013, {-0.03, -0.20, -0.17}, 0.0},
-    {"ps", true, 0.0075, {-0.10, -0.17, -0.13}, 0.05},
-    {"ucr", true, 0.008, {-0.07, -0.12, -0.09}, 0.05},
-    {"pi", true, 0.006, {-0.09, -0.17, -0.11}, 0.0},
-    {"or", true, 0.010, {-0.07, -0.07, 0.0}, -0.10, {-0.005, 0.006, 0}},
+    {"ps", true, 0.0075, {-0.10, -0.17, -0.13}, 0.05, {0, 0, 0}, &Complexion::eyes},
+    {"ucr", true, 0.008, {-0.07, -0.12, -0.09}, 0.05, {0, 0, 0}, &Complexion::eyes},
+    {"pi", true, 0.006, {-0.09, -0.17, -0.11}, 0.0, {0, 0, 0}, &Complexion::eyes},
+    {"or", true, 0.010, {-0.07, -0.07, 0.0}, -0.10, {-0.005, 0.006, 0}, &Complexion::eyes},
     {"en", true, 0.0045, {-0.04, -0.26, -0.22}, 0.10},
     {"en", true, 0.0017, {0.16, -0.62, -0.46}, 0.90, {0.0036, 0.0003, -0.003}},  // caruncle
     {"ex", true, 0.0045, {-0.05, -0.16, -0.12}, 0.0},
@@ -76,7 +78,7 @@ class Marks {
     const std::map<std::string, Vec3>& marks_;
 };
 
-std::vector<SkinZone> plan_zones(const Marks& marks) {
+std::vector<SkinZone> plan_zones(const Marks& marks, const Complexion& complexion) {
     std::vector<SkinZone> zones;
     for (const ZoneRecipe& recipe : kRecipes)
         for (const int side : {0, 1}) {
@@ -87,7 +89,8 @@ std::vector<SkinZone> plan_zones(const Marks& marks) {
             if (!p) continue;
             const Vec3 offset(side == 0 ? recipe.offset.x() : -recipe.offset.x(), recipe.offset.y(),
                               recipe.offset.z());
-            zones.push_back({*p + offset, recipe.spread_m, recipe.log_tint, recipe.oil});
+            const double factor = recipe.own ? complexion.*recipe.own : 1.0;
+            zones.push_back({*p + offset, recipe.spread_m, factor * recipe.log_tint, recipe.oil});
         }
     return zones;
 }
@@ -242,8 +245,15 @@ Vec3 hair_tone_at(const Appearance& appearance) {
     const Vec3& long_hair = appearance.hair_tone;
     const double light = std::clamp((long_hair.x() - 0.40) / 0.15, 0.0, 1.0),
                  yellow = std::clamp((long_hair.x() - long_hair.z()) / 0.30, 0.0, 1.0);
-    const Vec3 tone = long_hair + 0.8 * light * yellow * (Vec3(0.38, 0.28, 0.20) - long_hair);
+    const Vec3 darker = long_hair + 0.8 * light * yellow * (Vec3(0.38, 0.28, 0.20) - long_hair),
+               tone = (complexion_of(appearance).brows * darker).cwiseMin(1.0);
     return tone + white_share(appearance) * (Vec3(0.60, 0.555, 0.50) - tone);
+}
+
+Vec3 lip_tone_at(const Appearance& appearance) {
+    return linear_from_srgb(appearance.lip_tone)
+        .cwiseProduct(complexion_of(appearance).lips)
+        .cwiseMin(1.0);
 }
 
 double scalp_paint(const Appearance& appearance) {
@@ -264,7 +274,7 @@ double hairline_radius(const SkinPlan& plan, const Vec2& place) {
 SkinPlan plan_skin(const Scene& scene, const Vec3& paint_centre) {
     const Marks marks(scene);
     SkinPlan plan;
-    plan.zones = plan_zones(marks);
+    plan.zones = plan_zones(marks, complexion_of(scene.appearance));
     plan_lips(marks, plan);
     plan_beard(marks, scene.appearance, plan);
     plan_hairline(marks, paint_centre, scene.appearance, plan);

@@ -58,6 +58,9 @@ double white_share(const Appearance& appearance);
 /// Tone of short hair (brows, beard, stubble) with its white hairs.
 Vec3 hair_tone_at(const Appearance& appearance);
 
+/// Tone of the lips with what the complexion adds, linear.
+Vec3 lip_tone_at(const Appearance& appearance);
+
 /// How dark the scalp is painted, 0..1. Between locks it is as dark as their roots.
 double scalp_paint(const Appearance& appearance);
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "risorius/render/detail/complexion.h"
 #include "risorius/render/detail/paint_strokes.h"
 #include "risorius/render/detail/skin_paint.h"
 
@@ -274,6 +275,7 @@ std::vector<Strand> plan_lashes(const Scene& scene, int eye) {
     if (!corner) return strands;
     const Vec3 across = (*corner)[1] - (*corner)[0];
     const FrontOfEye front = front_between(scene, eye, *corner);
+    const double lashes = complexion_of(scene.appearance).lashes;
 
     for (const bool upper : {true, false}) {
         // The same seed for both eyes, which are mirror images
@@ -298,7 +300,7 @@ std::vector<Strand> plan_lashes(const Scene& scene, int eye) {
             const double aside =
                 1.15 * (s - 0.46) + 0.5 * tuft + 0.024 * (1.5 - i % 4) + 0.08 * (jitter - 0.5);
             strand.offset = lash_shape(length * (0.60 + 0.40 * long_), aside, upper);
-            strand.width_m = upper ? 0.00017 : 0.00009;
+            strand.width_m = lashes * (upper ? 0.00017 : 0.00009);
             strand.shade = 0.20 + 0.2 * shade;
             strands.push_back(strand);
         }
