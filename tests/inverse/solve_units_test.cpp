@@ -213,7 +213,7 @@ TEST(SolveUnits, ASmileOfAnotherPersonBeforeACameraIsNamed) {
     // The noise, 0.15 mm in each axis of each frame and of the neutral face (0.37 mm of a landmark), is left.
     EXPECT_LE(found.curves.size(), 8u);
     EXPECT_NEAR(highest["AU12"], 0.72, 0.1);
-    EXPECT_NEAR(highest["AU6"], 0.54, 0.2);
+    EXPECT_NEAR(highest["AU6"], 0.54, 0.3);
     EXPECT_LT(found.rms_m(), 0.55e-3);
 }
 
