@@ -39,8 +39,8 @@ namespace risorius::tissue {
 class TetSolid {
   public:
     static constexpr double kOwnVolume = 0.1;  ///< s
-    static constexpr double kCrushed = 0.3;     ///< J_c
-    static constexpr double kHardens = 4;       ///< c
+    static constexpr double kCrushed = 0.3;    ///< J_c
+    static constexpr double kHardens = 4;      ///< c
 
     /// Moduli are given per tet. Throws std::invalid_argument when a tet has no positive rest volume.
     TetSolid(const Tets& tets, const Points& rest, const Eigen::VectorXd& mu_pa,
