@@ -6,9 +6,8 @@
 ///   gap = (x_a - sum w_i x_i - p) . n     d = gap - g - s     E = kc/2 min(0, d)^2 + Es(gap)
 ///
 /// x_a is the node that touches, x_i are the other nodes and kc is the stiffness. The plane is carried by up to six other
-/// nodes with weights w_i; then p is a constant offset from them. Or it is carried by none; then p is a point of
-/// the plane. n is the normal of the plane. g is the rest gap, min(0, gap in the rest pose), so that the rest pose is free of
-/// force.
+/// nodes with weights w_i; then p is a constant offset from them. Or it is carried by none; then p is a point of the plane. n is
+/// the normal of the plane. g is the rest gap, min(0, gap in the rest pose), so that the rest pose is free of force.
 ///
 /// s is the shift of an augmented Lagrangian. After every solve it grows by half of the remaining penetration, or by less when
 /// it is already large. Over several steps the contact force becomes large enough to prevent penetration, without a high

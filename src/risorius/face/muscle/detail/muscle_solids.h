@@ -123,8 +123,7 @@ class MuscleSolids {
     /// Returns one entry per part.
     std::vector<SolidFigures> figures(const Points& x, const Eigen::VectorXd& activation) const;
     /// Makes tetrahedra in which a muscle lies at least as stiff as the relaxed muscle across its fibres: fascia ties it to fat and
-    /// skin there. `nodes`: of the tissue at rest, m; `mu_pa`: shear
-    /// modulus, one entry per tetrahedron.
+    /// skin there. `nodes`: of the tissue at rest, m; `mu_pa`: shear modulus, one entry per tetrahedron.
     void add_sheaths(const Points& nodes, const Tets& tets, Eigen::VectorXd& mu_pa) const;
     /// Returns one entry per part. `nodes`: of the tissue at rest, m.
     std::vector<BesideSolid> beside(const Points& nodes, const tissue::TetSolid& tissue) const;
