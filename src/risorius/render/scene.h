@@ -89,6 +89,7 @@ struct Appearance {
     double skin_gloss = 1.0;
     /// 0..2, how much of what `seed` draws beside the tones is seen: shade around the eyes, redness, lips, brows, lashes, moles
     double complexion = 0.0;
+    double mottling = 0.0;         ///< 0..1, how uneven the colour of the skin is
     std::string garment = "none";  ///< a name of garment_names(): what the shoulders wear
     Vec3 garment_tone{0.30, 0.32, 0.36};
 };

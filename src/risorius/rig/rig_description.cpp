@@ -116,6 +116,7 @@ void visit_fields(AppearanceDescription& appearance, Visit visit) {
     visit("brow_width", appearance.brow_width, Range{0.3, 2});
     visit("skin_gloss", appearance.skin_gloss, Range{0, 2});
     visit("complexion", appearance.complexion, Range{0, 2});
+    visit("mottling", appearance.mottling, Range{0, 1});
     static const std::vector<std::string_view> kGarments{"none", "crew_neck", "v_neck"};
     visit("garment", appearance.garment, kGarments);
     visit("garment_tone", appearance.garment_tone);
@@ -482,9 +483,10 @@ void write_rig(const RigDescription& rig, const std::filesystem::path& file,
     json["appearance"] = fields_of(rig.appearance);
     // Rigs that ask for no hair and no lines stay as they were before there were any.
     const Json usual = fields_of(AppearanceDescription{});
-    for (const char* key : {"hair_style", "lock_length", "lock_wave", "fringe", "parting",
-                            "hairline_form", "age_lines", "beard_form", "brow_density",
-                            "brow_width", "skin_gloss", "complexion", "garment", "garment_tone"})
+    for (const char* key :
+         {"hair_style", "lock_length", "lock_wave", "fringe", "parting", "hairline_form",
+          "age_lines", "beard_form", "brow_density", "brow_width", "skin_gloss", "complexion",
+          "mottling", "garment", "garment_tone"})
         if (json["appearance"][key] == usual[key]) json["appearance"].erase(key);
     if (const auto source = options.standard_folder / kCalibrationFile;
         std::filesystem::exists(source))

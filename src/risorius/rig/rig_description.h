@@ -133,7 +133,7 @@ struct AppearanceDescription {
     double age_lines = 0.0;
     std::string beard_form = "stubble";
     double brow_density = 1.0, brow_width = 1.0;
-    double skin_gloss = 1.0, complexion = 0.0;
+    double skin_gloss = 1.0, complexion = 0.0, mottling = 0.0;
     std::string garment = "none";  ///< names as in render/garments.h
     Vec3 garment_tone{0.30, 0.32, 0.36};
 };

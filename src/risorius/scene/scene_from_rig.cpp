@@ -201,6 +201,7 @@ render::Scene scene_from_rig(const rig::Head& head, const rig::RigDescription& r
                         .brow_width = rig.appearance.brow_width,
                         .skin_gloss = rig.appearance.skin_gloss,
                         .complexion = rig.appearance.complexion,
+                        .mottling = rig.appearance.mottling,
                         .garment = rig.appearance.garment,
                         .garment_tone = rig.appearance.garment_tone};
     return scene;

@@ -28,7 +28,7 @@ const std::pair<double IdentityHair::*, Range> kBlendedHair[] = {
     {&IdentityHair::brow_width, kBrowWidthRange},  {&IdentityHair::skin_gloss, kSkinGlossRange},
     {&IdentityHair::complexion, kComplexionRange}, {&IdentityHair::lock_length, kLockLengthRange},
     {&IdentityHair::lock_wave, kShareRange},       {&IdentityHair::fringe, kShareRange},
-    {&IdentityHair::parting, kPartingRange}};
+    {&IdentityHair::parting, kPartingRange},       {&IdentityHair::mottling, kShareRange}};
 constexpr std::string Identity::*kTones[] = {&Identity::skin, &Identity::iris, &Identity::hair};
 
 /// Every combination of what is balanced, one after the other; the cast goes round it.

@@ -14,9 +14,9 @@ namespace risorius::headmodel {
 
 const std::vector<std::string_view>& identity_hair_keys() {
     static const std::vector<std::string_view> keys{
-        "hair_style",   "hairline_form", "grey_hair",  "age_lines", "seed",         "beard_form",
-        "brow_density", "brow_width",    "skin_gloss", "garment",   "garment_tone", "lock_length",
-        "lock_wave",    "fringe",        "parting",    "complexion"};
+        "hair_style",   "hairline_form", "grey_hair",  "age_lines",  "seed",         "beard_form",
+        "brow_density", "brow_width",    "skin_gloss", "garment",    "garment_tone", "lock_length",
+        "lock_wave",    "fringe",        "parting",    "complexion", "mottling"};
     return keys;
 }
 
@@ -33,6 +33,7 @@ IdentityHair read_identity_hair(const JsonCursor& json) {
     if (json.has("brow_width")) hair.brow_width = json.at("brow_width").number(kBrowWidthRange);
     if (json.has("skin_gloss")) hair.skin_gloss = json.at("skin_gloss").number(kSkinGlossRange);
     if (json.has("complexion")) hair.complexion = json.at("complexion").number(kComplexionRange);
+    if (json.has("mottling")) hair.mottling = json.at("mottling").number(kShareRange);
     if (json.has("lock_length")) hair.lock_length = json.at("lock_length").number(kLockLengthRange);
     if (json.has("lock_wave")) hair.lock_wave = json.at("lock_wave").number(kShareRange);
     if (json.has("fringe")) hair.fringe = json.at("fringe").number(kShareRange);
@@ -78,6 +79,7 @@ void write_identity_hair(const IdentityHair& hair, Json& json) {
         json["garment_tone"] = {tone.x(), tone.y(), tone.z()};
     if (hair.skin_gloss != usual.skin_gloss) json["skin_gloss"] = hair.skin_gloss;
     if (hair.complexion != usual.complexion) json["complexion"] = hair.complexion;
+    if (hair.mottling != usual.mottling) json["mottling"] = hair.mottling;
 }
 
 }  // namespace risorius::headmodel

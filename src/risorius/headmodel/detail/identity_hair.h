@@ -32,6 +32,7 @@ struct IdentityHair {
     double skin_gloss = 1;  ///< 0..2, what the skin mirrors against the usual: powdered to oily
     double complexion =
         0;  ///< 0..2, how much of what the seed draws of shades, redness and moles is seen
+    double mottling = 0;                  ///< 0..1, how uneven the colour of the skin is
     std::string garment = "none";         ///< a name of render::garment_names()
     Vec3 garment_tone{0.30, 0.32, 0.36};  ///< sRGB
     bool operator==(const IdentityHair&) const = default;

@@ -37,6 +37,25 @@ Place place_of(unsigned seed) {
 /// Values of all parameters of the population, in its order.
 using Form = std::vector<double>;
 
+double squared_distance(const Form& a, const Form& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+    return sum;
+}
+
+/// A person of the sex, age and ancestry of a seed's place, and no more.
+Identity placed_person(unsigned seed, const DesignTables& tables) {
+    const Place place = place_of(seed);
+    Identity person;
+    person.model = Model::kPopulation;
+    person.name = "seed" + std::to_string(seed);
+    person.sex = place.woman ? -1 : 1;
+    person.age = std::round(kYoungest + (kOldest - kYoungest) * place.age);
+    person.ancestry[tables.ancestries[static_cast<std::size_t>(
+        place.ancestry * static_cast<double>(tables.ancestries.size()))]] = 1;
+    return person;
+}
+
 Form drawn_form(Draw& draw, const DesignTables& tables) {
     const auto normal = [&] { return std::clamp(draw.normal(), -kCut, kCut); };
     std::vector<double> modes(tables.population.front().modes.size());
@@ -50,48 +69,38 @@ Form drawn_form(Draw& draw, const DesignTables& tables) {
     return form;
 }
 
-double squared_distance(const Form& a, const Form& b, const DesignTables& tables) {
-    double sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k)
-        if (!makes_uneven(tables.population[k].name)) sum += (a[k] - b[k]) * (a[k] - b[k]);
-    return sum;
-}
-
-/// What makes a person of a row distinct is exaggerated as in the named people: 1.4 times, and half of what is beyond 1.4 deviations
-/// is taken back, so that nothing leaves kCut. How uneven a face is stays as it is in adults.
-Form exaggerated(Form form, const DesignTables& tables) {
-    constexpr double kMore = 1.4, kSoft = 1.4;
+/// The part of a form that is along what `change` says of each parameter, in its unit.
+double part_along(const Form& form, double PopulationParameter::*change,
+                  const DesignTables& tables) {
+    double along = 0, square = 0;
     for (std::size_t k = 0; k < form.size(); ++k) {
-        if (makes_uneven(tables.population[k].name)) continue;
-        const double more = kMore * std::abs(form[k]),
-                     soft = std::min(more, kSoft) + 0.5 * std::max(0.0, more - kSoft);
-        form[k] = to_hundredths(std::copysign(soft, form[k]));
+        const double by = tables.population[k].*change;
+        along += form[k] * by;
+        square += by * by;
     }
-    return form;
+    return along / square;
 }
 
-/// Of some forms that a seed draws, the one farthest from those before it in its row. Seeds that a program draws at random are in no row.
-Form form_in_row(unsigned seed, const DesignTables& tables) {
-    constexpr unsigned kRow = 24, kCandidates = 24, kLastInRows = 9600;
-    const bool in_row = seed > 0 && seed <= kLastInRows;
-    const unsigned first = in_row ? (seed - 1) / kRow * kRow + 1 : seed;
-    std::vector<Form> row;
-    for (unsigned member = first; member <= seed; ++member) {
-        Form best;
-        double farthest = -1;
-        for (unsigned c = 0; c < (row.empty() ? 1 : kCandidates); ++c) {
-            Draw draw(member + c * kFormSequence);
-            Form form = drawn_form(draw, tables);
-            double nearest = std::numeric_limits<double>::infinity();
-            for (const Form& other : row)
-                nearest = std::min(nearest, squared_distance(form, other, tables));
-            if (nearest <= farthest) continue;
-            farthest = nearest;
-            best = std::move(form);
-        }
-        row.push_back(std::move(best));
+/// What makes a person of a row distinct is exaggerated, more so what is seen: 1.3 to 1.6 times, and half of what is far from the mean
+/// is taken back, so that nothing leaves kCut. What is usual in the other sex or at another age is taken back instead, as those are
+/// not exaggerated. How uneven a face is stays as it is in adults.
+Form exaggerated(Form form, const DesignTables& tables) {
+    constexpr double kTakenBack = 0.7;
+    for (const auto change : {&PopulationParameter::sex, &PopulationParameter::late_age}) {
+        const double part = kTakenBack * part_along(form, change, tables);
+        for (std::size_t k = 0; k < form.size(); ++k)
+            form[k] -= part * (tables.population[k].*change);
     }
-    return in_row ? exaggerated(row.back(), tables) : row.back();
+    for (std::size_t k = 0; k < form.size(); ++k) {
+        const PopulationParameter& p = tables.population[k];
+        if (makes_uneven(p.name)) continue;
+        const double seen = 0.15 * std::min(p.seen, 2.0), more = (1.3 + seen) * std::abs(form[k]),
+                     from = 1.4 + seen,
+                     soft = std::min(more, from) + 0.5 * std::max(0.0, more - from);
+        form[k] = std::copysign(std::min(soft, kCut), form[k]);
+    }
+    for (double& value : form) value = to_hundredths(value);
+    return form;
 }
 
 /// Tones that are usual, from the names of the tones table, in thirds.
@@ -158,6 +167,8 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
     // people, whose ages were read from pictures.
     const double seems = person.age + 5 * std::clamp(draw.normal(), -2.0, 2.0);
     person.hairdo.age_lines = to_hundredths(std::clamp((seems - 22) / 30, 0.0, 1.0));
+    // The colour grows uneven with sun and years; shares from what a reader of ages makes of pictures.
+    person.hairdo.mottling = to_hundredths(std::clamp(0.3 + (seems - 22) / 60, 0.2, 1.0));
     // In the mean 26 % of grey hair at 53, 32 % at 58, 40 % at 63 years (Panhard et al. 2012).
     const double greying = person.age + 10 * std::clamp(draw.normal(), -2.0, 2.0);
     double grey = std::clamp((greying - 40) / 50, 0.0, 1.0);
@@ -178,7 +189,8 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
     // Brows of women are thinner, and often plucked.
     const double brow = std::clamp(draw.normal(), -2.0, 2.0),
                  height = std::clamp(draw.normal(), -2.0, 2.0);
-    person.hairdo.brow_density = to_hundredths((man ? 1.25 : 0.95) * std::exp(0.5 * brow));
+    person.hairdo.brow_density =
+        to_hundredths(std::min((man ? 1.25 : 0.95) * std::exp(0.5 * brow), kBrowDensityRange.max));
     person.hairdo.brow_width = to_hundredths((man ? 1.15 : 0.75) * std::exp(0.32 * height));
     // Half of the women paint their lips; an estimate.
     const double painted = draw.even(), red = draw.even();
@@ -230,6 +242,53 @@ void draw_skin(unsigned seed, const std::string& ancestry, Identity& person) {
     person.hairdo.skin_gloss = to_hundredths(dry * (0.75 + 0.15 * normal()));
 }
 
+/// What tells a person from others at first sight: the form of its head, sex, age and ancestry included, as much of it as is seen,
+/// and, in the same unit, the tone of its skin and its years.
+Form look_of(const Identity& person, const Form& usual, const Form& form,
+             const DesignTables& tables) {
+    constexpr double kMelanin = 10, kYears = 0.2;
+    Form look{kMelanin * *person.melanin, kYears * person.age};
+    for (std::size_t k = 0; k < form.size(); ++k)
+        look.push_back(tables.population[k].seen * (usual[k] + form[k]));
+    return look;
+}
+
+/// Of some forms that a seed draws, the one that is seen to differ most from those before it in its row. Seeds that a program draws at
+/// random are in no row.
+Form form_in_row(unsigned seed, const DesignTables& tables) {
+    constexpr unsigned kRow = 24, kCandidates = 48, kLastInRows = 9600;
+    const bool in_row = seed > 0 && seed <= kLastInRows;
+    if (!in_row) {
+        Draw draw(seed);
+        return drawn_form(draw, tables);
+    }
+    const unsigned first = (seed - 1) / kRow * kRow + 1;
+    std::vector<Form> looks;
+    Form best;
+    for (unsigned member = first; member <= seed; ++member) {
+        Identity person = placed_person(member, tables);
+        draw_skin(member, person.ancestry.begin()->first, person);
+        const auto shape = person_shape(person, tables);
+        Form usual, best_look;
+        for (const PopulationParameter& p : tables.population) usual.push_back(shape.at(p.name));
+        double farthest = -1;
+        for (unsigned c = 0; c < (looks.empty() ? 1 : kCandidates); ++c) {
+            Draw draw(member + c * kFormSequence);
+            Form form = exaggerated(drawn_form(draw, tables), tables);
+            Form look = look_of(person, usual, form, tables);
+            double nearest = std::numeric_limits<double>::infinity();
+            for (const Form& other : looks)
+                nearest = std::min(nearest, squared_distance(look, other));
+            if (nearest <= farthest) continue;
+            farthest = nearest;
+            best = std::move(form);
+            best_look = std::move(look);
+        }
+        looks.push_back(std::move(best_look));
+    }
+    return best;
+}
+
 }  // namespace
 
 bool makes_uneven(const std::string& parameter) {
@@ -253,20 +312,13 @@ std::map<std::string, double> person_shape(const Identity& identity, const Desig
 }
 
 Identity random_person(unsigned seed, const PersonChoice& choice, const DesignTables& tables) {
-    const Place place = place_of(seed);
     Draw draw(seed);
-    Identity person;
-    person.model = Model::kPopulation;
-    person.name = "seed" + std::to_string(seed);
-    const double sex = place.woman ? -1 : 1;
-    const double age = std::round(kYoungest + (kOldest - kYoungest) * place.age);
-    const std::string drawn = tables.ancestries[static_cast<std::size_t>(
-        place.ancestry * static_cast<double>(tables.ancestries.size()))];
-    const std::string& ancestry = choice.ancestry ? *choice.ancestry : drawn;
-    person.sex = choice.sex.value_or(sex);
-    person.age = choice.age.value_or(age);
+    Identity person = placed_person(seed, tables);
+    const std::string ancestry = choice.ancestry.value_or(person.ancestry.begin()->first);
+    person.sex = choice.sex.value_or(person.sex);
+    person.age = choice.age.value_or(person.age);
     index_of_name("ancestry", ancestry, tables.ancestries);
-    person.ancestry[ancestry] = 1;
+    person.ancestry = {{ancestry, 1}};
     drawn_form(draw, tables);  // what follows it in the sequence does not depend on the row
     const Form form = form_in_row(seed, tables);
     for (std::size_t k = 0; k < form.size(); ++k) person.shape[tables.population[k].name] = form[k];

@@ -234,9 +234,9 @@ std::vector<Handle> read_handles(const std::filesystem::path& file,
     return handles;
 }
 
-/// Columns: parameter,mean,sex,age,late_age, the ancestries, own, and the modes.
+/// Columns: parameter,mean,sex,age,late_age,seen, the ancestries, own, and the modes.
 void read_population(const std::filesystem::path& file, DesignTables& tables) {
-    constexpr std::size_t kFirstAncestry = 5;
+    constexpr std::size_t kFirstAncestry = 6;
     const auto cells = read_csv(file);
     const auto own = static_cast<std::size_t>(std::find(cells[0].begin(), cells[0].end(), "own") -
                                               cells[0].begin());
@@ -250,7 +250,7 @@ void read_population(const std::filesystem::path& file, DesignTables& tables) {
             return std::vector<double>(row.begin() + static_cast<long>(from) - 1,
                                        row.begin() + static_cast<long>(to) - 1);
         };
-        tables.population.push_back({cells[r][0], row[0], row[1], row[2], row[3],
+        tables.population.push_back({cells[r][0], row[0], row[1], row[2], row[3], row[4],
                                      part(kFirstAncestry, own), row[own - 1],
                                      part(own + 1, cells[0].size())});
     }

@@ -101,6 +101,7 @@ struct PopulationParameter {
     double mean;                   ///< of all, against the average head
     double sex, age;               ///< per unit: men 1, women -1; 1 at 80 years, 0 at 40
     double late_age;               ///< per unit: 1 at 80 years, 0 until 45
+    double seen;                   ///< how much of it is seen, against the mean of all
     std::vector<double> ancestry;  ///< added, in the order of DesignTables::ancestries
     double own;                    ///< part that varies by itself
     std::vector<double> modes;     ///< parts along what all parameters have in common

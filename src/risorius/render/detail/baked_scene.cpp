@@ -96,13 +96,13 @@ void add_look(const Scene& scene, CacheKey& key) {
     const auto& [skin_tone, lip_tone, hair_tone, iris_tone, freckles, scalp_hair, hairline_mm,
                  temples_mm, hair_length_mm, beard_length_mm, beard, age, seed, hair_style,
                  lock_length, lock_wave, fringe, parting, hairline_form, age_lines, grey_hair,
-                 beard_form, brow_density, brow_width, skin_gloss, complexion, garment,
+                 beard_form, brow_density, brow_width, skin_gloss, complexion, mottling, garment,
                  garment_tone] = appearance;
     key.add(skin_tone).add(lip_tone).add(hair_tone).add(iris_tone).add(freckles).add(scalp_hair);
     key.add(hairline_mm).add(temples_mm).add(hair_length_mm).add(beard_length_mm).add(beard);
     key.add(age).add(seed).add(hair_style).add(hairline_form).add(age_lines);
     key.add(grey_hair.value_or(-1.0));  // no share is below 0
-    key.add(beard_form).add(brow_density).add(brow_width).add(complexion);
+    key.add(beard_form).add(brow_density).add(brow_width).add(complexion).add(mottling);
     // Garment, gloss of the skin and form of the locks are not baked.
 }
 

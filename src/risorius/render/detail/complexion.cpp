@@ -28,7 +28,8 @@ Complexion complexion_of(const Appearance& appearance) {
     out.lashes = std::exp(much * 0.35 * around_zero());
     const double many = random.next();
     out.moles = static_cast<int>(much * 7 * many * many);
-    for (double* factor : {&out.eyes, &out.cheeks, &out.nose}) *factor = std::min(*factor, 2.2);
+    for (double* factor : {&out.eyes, &out.cheeks}) *factor = std::min(*factor, 2.2);
+    out.nose = std::min(out.nose, 1.3);  // three zones of it lie over each other
     return out;
 }
 

@@ -35,7 +35,7 @@ in vec2 place;
 in vec4 zone_sum;
 out vec4 colour;
 uniform vec3 skin_tone, lip_tone, hair_tone;   // linear
-uniform float scalp_hair, seed, age, beard, trimmed;
+uniform float scalp_hair, seed, age, mottling, beard, trimmed;
 uniform float ring;             // the crown is bald above it, m
 uniform vec4 beard_place[16];   // m, 1 / (2 spread^2)
 uniform int beard_places;
@@ -85,6 +85,10 @@ void main() {
     pigment *= 1.0 + 1.2 * age;
     oil *= 1.0 - 0.35 * age;
     tint += blood * vec3(0.00, -0.060, -0.045) + pigment * vec3(-0.030, -0.040, -0.050) + grain * 0.05;
+    // Sun and years leave the colour uneven: patches of one and of half a centimetre, and grain
+    float uneven = noise(p * 0.17 + 410.0) + noise(p * 0.42 + 430.0) - 1.0;
+    float fine = noise(p * 1.1 + 450.0) - 0.5;
+    tint += mottling * (uneven * vec3(-0.15, -0.22, -0.25) + fine * vec3(-0.15, -0.20, -0.22));
     vec3 albedo = skin_tone * exp(tint);
 
     vec2 from_middle = place - 0.5;
