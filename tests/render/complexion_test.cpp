@@ -43,6 +43,7 @@ TEST(Complexion, DiffersBetweenSeedsAboutTheUsual) {
         most = std::max(most, own.cheeks);
         moles += own.moles;
         EXPECT_EQ(complexion_of(appearance).lips, own.lips);
+        EXPECT_LE(own.nose, 1.3) << "no red nose";
     }
     EXPECT_NEAR(cheeks, 0, 0.15);
     EXPECT_NEAR(lips, 0, 0.08);

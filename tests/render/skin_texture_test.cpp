@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "message_of.h"
 #include "render/round_head.h"
@@ -52,6 +53,30 @@ TEST(SkinTexture, ShowsSkinAndLipsWhereTheyAreLaidOut) {
     EXPECT_LT((forehead - head.scene.appearance.skin_tone).cwiseAbs().maxCoeff(), 0.15);
     EXPECT_GT(lip.x() / lip.y(), forehead.x() / forehead.y() + 0.1) << "the red of the lips";
     EXPECT_EQ(texture.rgba, view.skin_texture(head.scene, kSide_px).rgba);
+}
+
+/// Mottling changes the colour of the skin by some percent from place to place, and its mean hardly. Without it all stays as it was.
+TEST(SkinTexture, IsUnevenWhereItIsMottled) {
+    RoundHead head = laid_out();
+    const auto painted = [&](double mottling) {
+        head.scene.appearance.mottling = mottling;
+        return OffscreenView(head.scene, {.width_px = 64, .height_px = 64})
+            .skin_texture(head.scene, kSide_px);
+    };
+    const Image plain = painted(0), mottled = painted(1);
+    EXPECT_EQ(plain.rgba, painted(0).rgba);
+    double sum = 0, squares = 0;
+    int count = 0;
+    for (int y = 20; y < 50; ++y)
+        for (int x = 50; x < 80; ++x) {
+            const double ratio = mottled.pixel(x, y)[1] / (1.0 + plain.pixel(x, y)[1]);
+            sum += ratio;
+            squares += ratio * ratio;
+            ++count;
+        }
+    const double mean = sum / count;
+    EXPECT_NEAR(mean, 1, 0.05);
+    EXPECT_NEAR(std::sqrt(squares / count - mean * mean), 0.03, 0.02);
 }
 
 TEST(SkinTexture, NeedsTextureCoordinates) {

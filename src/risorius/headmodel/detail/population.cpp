@@ -43,6 +43,11 @@ double squared_distance(const Form& a, const Form& b) {
     return sum;
 }
 
+bool in_row(unsigned seed) {
+    constexpr unsigned kLastInRows = 9600;
+    return seed > 0 && seed <= kLastInRows;
+}
+
 /// A person of the sex, age and ancestry of a seed's place, and no more.
 Identity placed_person(unsigned seed, const DesignTables& tables) {
     const Place place = place_of(seed);
@@ -81,11 +86,11 @@ double part_along(const Form& form, double PopulationParameter::*change,
     return along / square;
 }
 
-/// What makes a person of a row distinct is exaggerated, more so what is seen: 1.3 to 1.6 times, and half of what is far from the mean
+/// What makes a person of a row distinct is exaggerated, more so what is seen: 1.3 to 2.1 times, and half of what is far from the mean
 /// is taken back, so that nothing leaves kCut. What is usual in the other sex or at another age is taken back instead, as those are
 /// not exaggerated. How uneven a face is stays as it is in adults.
 Form exaggerated(Form form, const DesignTables& tables) {
-    constexpr double kTakenBack = 0.7;
+    constexpr double kTakenBack = 0.8;
     for (const auto change : {&PopulationParameter::sex, &PopulationParameter::late_age}) {
         const double part = kTakenBack * part_along(form, change, tables);
         for (std::size_t k = 0; k < form.size(); ++k)
@@ -94,8 +99,8 @@ Form exaggerated(Form form, const DesignTables& tables) {
     for (std::size_t k = 0; k < form.size(); ++k) {
         const PopulationParameter& p = tables.population[k];
         if (makes_uneven(p.name)) continue;
-        const double seen = 0.15 * std::min(p.seen, 2.0), more = (1.3 + seen) * std::abs(form[k]),
-                     from = 1.4 + seen,
+        const double seen = std::min(p.seen, 2.0), more = (1 + 0.55 * seen) * std::abs(form[k]),
+                     from = 1.2 + 0.4 * seen,
                      soft = std::min(more, from) + 0.5 * std::max(0.0, more - from);
         form[k] = std::copysign(std::min(soft, kCut), form[k]);
     }
@@ -168,7 +173,7 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
     const double seems = person.age + 5 * std::clamp(draw.normal(), -2.0, 2.0);
     person.hairdo.age_lines = to_hundredths(std::clamp((seems - 22) / 30, 0.0, 1.0));
     // The colour grows uneven with sun and years; shares from what a reader of ages makes of pictures.
-    person.hairdo.mottling = to_hundredths(std::clamp(0.3 + (seems - 22) / 60, 0.2, 1.0));
+    person.hairdo.mottling = to_hundredths(std::clamp(0.4 + (seems - 22) / 60, 0.3, 1.0));
     // In the mean 26 % of grey hair at 53, 32 % at 58, 40 % at 63 years (Panhard et al. 2012).
     const double greying = person.age + 10 * std::clamp(draw.normal(), -2.0, 2.0);
     double grey = std::clamp((greying - 40) / 50, 0.0, 1.0);
@@ -191,10 +196,11 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
                  height = std::clamp(draw.normal(), -2.0, 2.0);
     person.hairdo.brow_density =
         to_hundredths(std::min((man ? 1.25 : 0.95) * std::exp(0.5 * brow), kBrowDensityRange.max));
-    person.hairdo.brow_width = to_hundredths((man ? 1.15 : 0.75) * std::exp(0.32 * height));
-    // Half of the women paint their lips; an estimate.
+    person.hairdo.brow_width =
+        to_hundredths(std::min((man ? 1.15 : 0.65) * std::exp(0.32 * height), kBrowWidthRange.max));
+    // Seven of ten women paint their lips, and those of the others are redder than men's; estimates.
     const double painted = draw.even(), red = draw.even();
-    if (!man && painted < 0.5) person.lipstick = to_hundredths(0.2 + 0.5 * red);
+    if (!man) person.lipstick = painted < 0.7 ? to_hundredths(0.3 + 0.5 * red) : 0.15;
     // Of men six in ten are shaved or have stubble.
     const double kind = draw.even(), growth = draw.even();
     if (man && kind >= 0.6) {
@@ -216,6 +222,12 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
     const std::string& style = person.hairdo.style;
     if (fringe < 0.5 && (style == "bob" || style == "short_parted"))
         person.hairdo.fringe = to_hundredths(0.4 + 1.2 * fringe);
+    // Of men who go bald, one in five shaves his head, and one in five keeps a thin crop. Estimates.
+    const double bald = draw.even();
+    if (style == "bald_fringe" && bald < 0.4) {
+        person.hairdo.hairline_form = "receding";
+        person.hairdo.style = bald < 0.2 ? "shaven" : "crop";
+    }
 }
 
 /// Melanin of an ancestry: mean and spread of facial skin as in ISSA (2025), for South Asian faces an estimate.
@@ -253,12 +265,11 @@ Form look_of(const Identity& person, const Form& usual, const Form& form,
     return look;
 }
 
-/// Of some forms that a seed draws, the one that is seen to differ most from those before it in its row. Seeds that a program draws at
+/// Of some forms that a seed draws, the one that is seen to differ most from the 23 before it in its row. Seeds that a program draws at
 /// random are in no row.
 Form form_in_row(unsigned seed, const DesignTables& tables) {
-    constexpr unsigned kRow = 24, kCandidates = 48, kLastInRows = 9600;
-    const bool in_row = seed > 0 && seed <= kLastInRows;
-    if (!in_row) {
+    constexpr unsigned kRow = 48, kBefore = 23, kCandidates = 48;
+    if (!in_row(seed)) {
         Draw draw(seed);
         return drawn_form(draw, tables);
     }
@@ -285,6 +296,7 @@ Form form_in_row(unsigned seed, const DesignTables& tables) {
             best_look = std::move(look);
         }
         looks.push_back(std::move(best_look));
+        if (looks.size() > kBefore) looks.erase(looks.begin());
     }
     return best;
 }
@@ -321,11 +333,16 @@ Identity random_person(unsigned seed, const PersonChoice& choice, const DesignTa
     person.ancestry = {{ancestry, 1}};
     drawn_form(draw, tables);  // what follows it in the sequence does not depend on the row
     const Form form = form_in_row(seed, tables);
-    for (std::size_t k = 0; k < form.size(); ++k) person.shape[tables.population[k].name] = form[k];
+    // As all that makes people of rows distinct, what is usual in their sex is exaggerated.
+    const double sex_again = in_row(seed) ? 1.3 * person.sex : 0;
+    for (std::size_t k = 0; k < form.size(); ++k) {
+        const PopulationParameter& p = tables.population[k];
+        person.shape[p.name] = to_hundredths(std::clamp(form[k] + sex_again * p.sex, -kCut, kCut));
+    }
     draw_colours(draw, ancestry, person);
     draw_hair(seed, ancestry, tables, person);
     draw_skin(seed, ancestry, person);
-    person.hairdo.complexion = 1;
+    person.hairdo.complexion = 1.25;
     person.hairdo.garment = "crew_neck";  // all wear the same
     return person;
 }
