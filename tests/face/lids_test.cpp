@@ -94,6 +94,19 @@ TEST_F(Lids, OneEyeWinksAlone) {
     EXPECT_NEAR(gap_mm(pose, "_r"), gap_mm(open, "_r"), 0.05);
 }
 
+// The crease of the upper lid lies behind the line from the margin to the brow. Skin that a shut lid needs comes from it.
+TEST_F(Lids, AShutLidUnfoldsItsCrease) {
+    const auto depth_mm = [](const FacePose& pose, const std::string& side) {
+        const Vec3 margin = at(pose.vertices, "ps" + side), brow = at(pose.vertices, "bc" + side),
+                   crease = at(pose.vertices, "ucr" + side);
+        const double part = (crease.y() - margin.y()) / (brow.y() - margin.y());
+        return 1e3 * ((1 - part) * margin.z() + part * brow.z() - crease.z());
+    };
+    const FacePose open = equilibrium_pose(face(), neutral()),
+                   shut = equilibrium_pose(face(), with_unit("AU45"));
+    for (const char* side : {"_l", "_r"}) EXPECT_LT(depth_mm(shut, side), depth_mm(open, side));
+}
+
 TEST_F(Lids, AfterABlinkTheFaceIsAsBefore) {
     // Lids ride on their plates, so they come back to the micrometre though the tissue needs a moment.
     const track::Drive shut = with_unit("AU45");

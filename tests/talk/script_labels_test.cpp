@@ -62,13 +62,34 @@ TEST(ScriptLabels, WhatOverlapsOrIsCutByTheEndIsLeftOut) {
     check_utterance(all, speech::PhoneTable::standard(), "all");
 }
 
+/// Gives `files` a changed copy of the rig file beside its own voice.
+template <typename Change>
+void change(scene::RigFiles& files, const TemporaryFolder& folder, Change with) {
+    Json rig = Json::parse(read_file(files.file, {"a rig", kMegabyte}));
+    with(rig);
+    std::filesystem::copy_file(voice_file_of(files.file), voice_file_of(folder / "rig.json"));
+    std::ofstream(folder / "rig.json", std::ios::binary) << rig;
+    files.file = folder / "rig.json";
+}
+
+TEST(MouthsOfARig, AreKeptWhenLooksOrUnitsChange) {
+    scene::RigFiles files =
+        scene::read_rig_files(std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs/adult/rig.json");
+    EXPECT_TRUE(known_voice_of_rig(files));
+    const TemporaryFolder folder;
+    change(files, folder, [](Json& rig) {
+        rig["name"] = "somebody";
+        rig["appearance"]["seed"] = 77;
+        rig["unit_gains"].erase("AU12");
+    });
+    EXPECT_TRUE(known_voice_of_rig(files));
+}
+
 TEST(MouthsOfARig, AreNotSimulatedForACheckOfAScript) {
     scene::RigFiles files =
         scene::read_rig_files(std::filesystem::path(RISORIUS_SOURCE_DIR) / "rigs/adult/rig.json");
     const TemporaryFolder folder;
-    std::ofstream(folder / "rig.json", std::ios::binary)
-        << read_file(files.file, {"a rig", kMegabyte}) << "\n\n";
-    files.file = folder / "rig.json";
+    change(files, folder, [](Json& rig) { rig["tissue"]["damping_s"] = 0.0123; });
     track::ScriptHeader header;
     header.duration_s = 3;
     const JsonCursor say = JsonCursor::from_json(

@@ -42,6 +42,9 @@ struct ZajacShape {
     double tendon_toe_exponent = 3;    ///< kt                                      (0, inf)
 };
 
+/// Returns the slope with which the passive curve leaves 0, before its kink is smoothed: k / (e0 (exp(k) - 1)).
+double passive_slope(const ZajacShape& shape);
+
 /// Returns the curves. Throws std::invalid_argument when a number is outside its range, when l does not increase from point to
 /// point, or when the active curve has no peak.
 MuscleCurves zajac_curves(const ZajacShape& shape = {});

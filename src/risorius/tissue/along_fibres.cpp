@@ -2,6 +2,8 @@
 #include "risorius/tissue/along_fibres.h"
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -19,18 +21,25 @@ Mat3 gradient_at(const StrainPoint& point, const Points& x) {
     return f;
 }
 
+/// dW/d(a . C a) of the stretch, and its derivative, for a . C a = `squared`.
+std::array<double, 2> slopes_of_stretch(double stretch_pa, double squared) {
+    if (!(squared > 1)) return {0, 0};
+    const double stretch = std::sqrt(squared);
+    return {0.5 * stretch_pa * (1 - 1 / stretch), 0.25 * stretch_pa / (squared * stretch)};
+}
+
 /// dW/dC, symmetric, for b = C a.
 Mat3 slope_by_metric(const AlongFibres::Moduli& moduli, const Vec3& a, const Vec3& b) {
     const double squared = a.dot(b);
     const Mat3 n = a * a.transpose();
     return 0.5 * moduli.shear_pa * (a * b.transpose() + b * a.transpose() - 2 * squared * n) +
-           0.25 * moduli.stretch_pa * (squared - 1) * n;
+           slopes_of_stretch(moduli.stretch_pa, squared)[0] * n;
 }
 
 double density_of(const AlongFibres::Moduli& moduli, const Vec3& a, const Vec3& b) {
-    const double squared = a.dot(b);
+    const double squared = a.dot(b), longer = std::max(std::sqrt(squared) - 1, 0.0);
     return 0.5 * moduli.shear_pa * (b.squaredNorm() - squared * squared) +
-           0.125 * moduli.stretch_pa * (squared - 1) * (squared - 1);
+           0.5 * moduli.stretch_pa * longer * longer;
 }
 
 using Stiffness9 = Eigen::Matrix<double, 9, 9>;
@@ -39,6 +48,7 @@ using Stiffness9 = Eigen::Matrix<double, 9, 9>;
 Stiffness9 stiffness_at(const AlongFibres::Moduli& moduli, const Mat3& f, const Vec3& a) {
     const Vec3 b = f.transpose() * (f * a);
     const Mat3 slope = slope_by_metric(moduli, a, b), n = a * a.transpose();
+    const double stiffness_pa = slopes_of_stretch(moduli.stretch_pa, a.dot(b))[1];
     Stiffness9 out;
     for (int column = 0; column < 9; ++column) {
         Mat3 change = Mat3::Zero();
@@ -48,7 +58,7 @@ Stiffness9 stiffness_at(const AlongFibres::Moduli& moduli, const Mat3& f, const 
         const double squared = a.dot(moved);
         const Mat3 turn = 0.5 * moduli.shear_pa *
                               (a * moved.transpose() + moved * a.transpose() - 2 * squared * n) +
-                          0.25 * moduli.stretch_pa * squared * n;
+                          stiffness_pa * squared * n;
         const Mat3 stress = 2 * change * slope + 2 * f * turn;
         out.col(column) = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(stress.data());
     }

@@ -3,15 +3,16 @@
 /// What makes a solid stiffer along one direction than across it: the part of a transversely isotropic material that its isotropic
 /// part lacks. The isotropic part is another term (cell_solid.h, tet_solid.h).
 ///
-///   E = sum over points V [ s/2 ( |C a|^2 - (a . C a)^2 ) + k/8 (a . C a - 1)^2 ],   C = F^T F
+///   E = sum over points V [ s/2 ( |C a|^2 - (a . C a)^2 ) + k/2 max(l - 1, 0)^2 ],   C = F^T F,  l = sqrt(a . C a)
 ///
-///   F   deformation gradient; a: direction at rest, a unit vector; V: rest volume, m^3
+///   F   deformation gradient; a: direction at rest, a unit vector; l: stretch along it; V: rest volume, m^3
 ///   s   what the shear modulus along a has more than that across, mu_L - mu_T, Pa
-///   k   what the fibres add to Young's modulus along a, Pa
+///   k   what stretched fibres add to Young's modulus along a, Pa; shortened fibres go slack, as collagen does
 ///
-/// With mu/4 |C - I|^2 + K/2 (J - 1)^2 and K >> mu, small strains have the moduli of an incompressible, transversely isotropic solid:
-///   mu_T = mu,  mu_L = mu + s,  E_L = 3 mu + k,  E_T = 4 mu E_L / (E_L + mu)
-/// Relaxed vastus lateralis has mu_L = 5.77, mu_T = 1.93 kPa and E_L / E_T - 1 = 4.67, which is k = 36 kPa.
+/// With mu/4 |C - I|^2 + K/2 (J - 1)^2 and K >> mu, small strains have the moduli of an incompressible solid:
+///   mu_T = mu,  mu_L = mu + s,  E_L = 3 mu + k in tension,  E_T = 3 mu in tension, where the fibres are shortened
+/// Relaxed vastus lateralis has mu_L = 5.77, mu_T = 1.93 kPa and E_L / E_T - 1 = 4.67, which is k = 27 kPa. The pull grows with
+/// the strain and not faster: what was measured are small strains.
 ///
 /// Source of the numbers: PMC8754054 (shear waves in the muscle of one person).
 #pragma once

@@ -28,7 +28,7 @@ void main() {
     float s = fine_visibility(position, n) * min(1.0, 1.6 * sky_seen);
     vec3 enamel = own_colour(rest, enamel_at(rest));
     // Dim light in the mouth has been to its red walls.
-    vec3 tint = mix(vec3(1.15, 0.88, 0.78), vec3(1.08), smoothstep(0.05, 0.5, sky_seen));
+    vec3 tint = mix(vec3(1.45, 1.28, 1.22), vec3(1.08), smoothstep(0.05, 0.5, sky_seen));
     vec3 light = key_card.rgb * s * kept * scattered(dot(n, k), vec3(0.45, 0.40, 0.33)) + soft * tint;
     vec3 gloss = key_card.rgb * s * min(glint(n, v, k, 0.22, 0.045), 1.0);
     gloss += sky_seen * sky_seen * mirrored_share(clamp(dot(n, v), 0.0, 1.0), 0.22, 0.045) * mirrored(reflect(-v, n), 1.0);

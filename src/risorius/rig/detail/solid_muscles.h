@@ -45,7 +45,8 @@ struct SolidMuscle {
     std::array<int, 3> cells{0, 0, 0};
     double shear_pa = 2000;  ///< shear modulus of the matrix                              [1, 1e9]
     double shear_along_pa = 2000;  ///< the same along the fibres                  [shear_pa, 1e9]
-    double stretch_along_pa = 0;   ///< addition to Young's modulus along the fibres       [0, 1e9]
+    /// Addition to Young's modulus along stretched fibres, their passive curve included   [0, 1e9]
+    double stretch_along_pa = 0;
     double volume_pa = 1.5e6;  ///< bulk stiffness                                        [1, 1e10]
     std::optional<SolidMesh> mesh;  ///< in place of a grid along the path
 

@@ -25,7 +25,7 @@ namespace risorius::face {
 
 /// Shape of the passive curve of relaxed jaw muscles: the passive force is 1.5 % of F0 at 1.5 times the length (Peck et al. 2000). Stiffer
 /// muscles would not let the jaw open wide.
-inline constexpr double kJawPassiveStrain = 2.0;
+inline constexpr double kJawPassiveStrain = 3.4;
 
 /// One side of a muscle of jaw or hyoid on one head.
 struct JawMuscle {

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "risorius/core/error.h"
-#include "risorius/face/anatomy/detail/jaw_muscles.h"
 #include "risorius/solve/energy_term.h"
 
 namespace risorius::face {
@@ -38,6 +37,17 @@ Vec3 place_in_cell(const Vec3& p, const Eigen::Matrix<double, 3, 8>& corner) {
     return s;
 }
 
+/// Volume of the belly over the mean length of its rows of nodes.
+double mean_section_m2(const std::vector<tissue::StrainPoint>& points, const Points& rest,
+                       const tissue::GridShape& grid) {
+    double volume_m3 = 0, length_m = 0;
+    for (const tissue::StrainPoint& point : points) volume_m3 += point.volume_m3;
+    const Eigen::Index row = grid.n * grid.o;
+    for (Eigen::Index i = row; i < rest.rows(); ++i)
+        length_m += (rest.row(i) - rest.row(i - row)).norm();
+    return volume_m3 * static_cast<double>(row) / length_m;
+}
+
 /// Corners of a cell (4 b1 + 2 b2 + b3) in the order of VTK: round its lower face, then round the upper one.
 constexpr std::array<int, 8> kRound{0, 4, 6, 2, 1, 5, 7, 3};
 
@@ -48,6 +58,7 @@ GridBelly::GridBelly(const SolidPart& place, const SolidPlacement& nodes,
     : SolidBelly(place, nodes) {
     const tissue::GridShape& grid = place_.grid;
     const rig::SolidMuscle& solid = *place_.solid;
+    const muscle::ZajacShape curves = this->curves(rig);
     const auto rest_at = [&](const Vec3& a) -> Vec3 {
         return rest_
             .row(grid.index(static_cast<int>(std::lround(a[0] * (grid.m - 1))),
@@ -60,10 +71,11 @@ GridBelly::GridBelly(const SolidPart& place, const SolidPlacement& nodes,
             tissue::uniform_cells(grid), rest_at,
             {solid.shear_pa, solid.volume_pa, rig.tissue.damping_s * solid.shear_pa},
             kMuscleDensity_kg_m3));
-        if (solid.is_stiffer_along())
-            along_.emplace(tissue::strain_points(cells_->mesh(), rest_),
-                           tissue::AlongFibres::Moduli{solid.shear_along_pa - solid.shear_pa,
-                                                       solid.stretch_along_pa});
+        if (solid.is_stiffer_along()) {
+            auto points = tissue::strain_points(cells_->mesh(), rest_);
+            const double section_m2 = mean_section_m2(points, rest_, grid);
+            along_.emplace(std::move(points), along_moduli(curves, section_m2));
+        }
     } catch (const std::invalid_argument&) {
         throw Error("anatomy/solids/" + place_.muscle->id,
                     "a muscle whose cells have volume on this head", "a folded cell");
@@ -77,9 +89,6 @@ GridBelly::GridBelly(const SolidPart& place, const SolidPlacement& nodes,
     }
     const rig::Muscle& muscle = *place_.muscle;
     const double fibre_m = muscle.rest_stretch * muscle.optimal_length_m;
-    muscle::ZajacShape curves;
-    curves.passive_strain =
-        muscle.group == "mimetic" ? rig.tissue.fibre_passive_strain : kJawPassiveStrain;
     const double count = static_cast<double>(chains.size());
     chains_ = std::make_unique<muscle::ChainSet>(
         std::move(chains), rest_,

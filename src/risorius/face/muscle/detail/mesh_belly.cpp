@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "risorius/face/anatomy/detail/jaw_muscles.h"
 #include "risorius/geom/polyline.h"
 #include "risorius/geom/tet_boundary.h"
 #include "risorius/solve/energy_term.h"
@@ -44,14 +43,11 @@ MeshBelly::MeshBelly(const SolidPart& place, const SolidPlacement& nodes,
                                                 Eigen::VectorXd::Constant(count, solid.shear_pa),
                                                 Eigen::VectorXd::Constant(count, own), apart);
     volumes_ = std::make_unique<tissue::NodeVolumes>(place_.tets, rest_, solid.volume_pa - own);
+    const muscle::ZajacShape curves = this->curves(rig);
     if (solid.is_stiffer_along())
         along_.emplace(tissue::strain_points(place_.tets, rest_, place_.fibres),
-                       tissue::AlongFibres::Moduli{solid.shear_along_pa - solid.shear_pa,
-                                                   solid.stretch_along_pa});
+                       along_moduli(curves, rest_volume_ / place_.length_m));
     f0_n_ = built_f0_n_ = place_.f0_n;
-    muscle::ZajacShape curves;
-    curves.passive_strain =
-        muscle.group == "mimetic" ? rig.tissue.fibre_passive_strain : kJawPassiveStrain;
     fibres_ = std::make_unique<muscle::FibreTets>(
         muscle::FibreTetsParameters{.tension_pa = 1,
                                     .optimal_stretch = 1 / muscle.rest_stretch,

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/face/muscle/detail/solid_belly.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "risorius/face/anatomy/detail/jaw_muscles.h"
 #include "risorius/face/muscle/detail/grid_belly.h"
 #include "risorius/face/muscle/detail/mesh_belly.h"
 
@@ -13,6 +15,21 @@ SolidBelly::SolidBelly(SolidPart place, const SolidPlacement& nodes) : place_(st
     for (std::size_t i = 0; i < place_.node.size(); ++i)
         rest_.row(static_cast<Eigen::Index>(i)) =
             nodes.nodes[static_cast<std::size_t>(place_.node[i])].rest.transpose();
+}
+
+muscle::ZajacShape SolidBelly::curves(const rig::RigDescription& rig) const {
+    muscle::ZajacShape shape;
+    shape.passive_strain =
+        place_.muscle->group == "mimetic" ? rig.tissue.fibre_passive_strain : kJawPassiveStrain;
+    return shape;
+}
+
+tissue::AlongFibres::Moduli SolidBelly::along_moduli(const muscle::ZajacShape& curves,
+                                                     double section_m2) const {
+    const rig::SolidMuscle& solid = *place_.solid;
+    const double of_fibres_pa = place_.f0_n / section_m2 * muscle::passive_slope(curves);
+    return {solid.shear_along_pa - solid.shear_pa,
+            std::max(solid.stretch_along_pa - of_fibres_pa, 0.0)};
 }
 
 void add_blocks(const solve::SymmetricBlocks& blocks, const std::vector<int>& row,

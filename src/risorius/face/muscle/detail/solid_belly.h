@@ -14,8 +14,10 @@
 #include "risorius/face/muscle/detail/solid_figures.h"
 #include "risorius/face/muscle/detail/solid_placement.h"
 #include "risorius/muscle/chain_set.h"
+#include "risorius/muscle/muscle_curves.h"
 #include "risorius/rig/rig_description.h"
 #include "risorius/solve/hessian_builder.h"
+#include "risorius/tissue/along_fibres.h"
 
 namespace risorius::solve {
 enum class Curvature;
@@ -84,6 +86,12 @@ class SolidBelly {
 
   protected:
     SolidBelly(SolidPart place, const SolidPlacement& nodes);
+    /// Curves of its fibres.
+    muscle::ZajacShape curves(const rig::RigDescription& rig) const;
+    /// What the matrix lacks along the fibres. `section_m2`: mean section at rest. The published modulus is that of the whole
+    /// relaxed muscle, so what the passive curve of its fibres adds, once they are stretched, is taken off.
+    tissue::AlongFibres::Moduli along_moduli(const muscle::ZajacShape& curves,
+                                             double section_m2) const;
     SolidPart place_;
     Points rest_;
 };

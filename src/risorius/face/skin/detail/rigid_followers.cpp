@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "risorius/geom/polyline.h"
 
@@ -11,7 +12,9 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kNotKept = -1.0;  // m; no lid lies this far inside its eye
+constexpr double kUnfolded = 0.8;    // of the depth of a fold, by a shut lid
+constexpr double kUnfoldedBy = 0.6;  // closure
+constexpr double kNotKept = -1.0;    // m; no lid lies this far inside its eye
 
 }  // namespace
 
@@ -43,6 +46,8 @@ RigidFollowers::RigidFollowers(const rig::Head& head, const rig::RigDescription&
             lid_vertices_.push_back({static_cast<int>(v), side, member, weight, clearance});
         }
     }
+
+    measure_folds();
 
     // Lashes follow the skin at their root, and the tarsal plate
     std::vector<int> lashes;
@@ -108,6 +113,54 @@ RigidFollowers::RigidFollowers(const rig::Head& head, const rig::RigDescription&
                 : 1.0;
 }
 
+// How deep a vertex lies below the straight lines between skin on both sides of the fold, seen from the eye. Only skin as near as
+// a lid is high counts: the hollow below the brow is no fold.
+void RigidFollowers::measure_folds() {
+    struct Place {
+        double along_m, angle, radius_m;
+    };
+    const double near_m = head_.mm(2), far_m = head_.mm(6.5), deepest_m = head_.mm(1.5);
+    for (int side = 0; side < 2; ++side) {
+        const EyeLids& lids = lids_[side];
+        const auto place_of = [&](const Vec3& p) {
+            const Vec3 r = p - lids.centre();
+            return Place{lids.place_of(p) * lids.fissure_m(), lids.angle_of(p),
+                         (r - r.dot(lids.axis()) * lids.axis()).norm()};
+        };
+        std::vector<Place> skin;
+        for (long v = 0; v < rest_.rows(); ++v) {
+            const Vec3 p = rest_.row(v).transpose();
+            if (head_.carrier[v] == rig::Carrier::kSkin && p.z() > lids.centre().z() &&
+                (p - lids.centre()).norm() < lids.zone_m() + head_.mm(12) && lids.member(p).upper &&
+                lids.member(p).beyond == 0)
+                skin.push_back(place_of(p));
+        }
+        for (LidVertex& lid : lid_vertices_) {
+            if (lid.side != side || !lid.member.upper || lid.member.beyond > 0) continue;
+            const Place at = place_of(rest_.row(lid.vertex).transpose());
+            std::vector<Place> below, above;
+            for (const Place& other : skin) {
+                const double up_m = (other.angle - at.angle) * at.radius_m;
+                if (std::abs(other.along_m - at.along_m) > near_m || std::abs(up_m) > far_m)
+                    continue;
+                if (up_m < 0) below.push_back(other);
+                if (up_m > 0) above.push_back(other);
+            }
+            double hollow_m = 0;
+            for (const Place& a : below)
+                for (const Place& b : above) {
+                    const double part = (at.angle - a.angle) / (b.angle - a.angle);
+                    const double line_m = (1 - part) * a.radius_m + part * b.radius_m;
+                    hollow_m = std::max(hollow_m, line_m - at.radius_m);
+                }
+            const double middle =
+                std::sin(std::numbers::pi * std::clamp(lid.member.place, 0.0, 1.0)) *
+                geom::smoothstep(0.25, 0.6, lid.member.height);
+            lid.hollow_m = middle * std::min(hollow_m, deepest_m);
+        }
+    }
+}
+
 void RigidFollowers::turn_with_head(const Rigid& head, const Points& rest, Points& points) const {
     if (head.isApprox(Rigid::Identity(), 0.0)) return;
     for (long p = 0; p < points.rows(); ++p)
@@ -123,6 +176,11 @@ void RigidFollowers::apply_lids(const FollowDrive& drive, Points& vertices) cons
         if (lid.weight > 0) {
             const Vec3 ride = rest + lids_[lid.side].ride(rest, lid.member, drive.lid[lid.side]);
             vertices.row(v) = (1 - lid.weight) * vertices.row(v) + lid.weight * ride.transpose();
+        }
+        if (lid.hollow_m > 0) {
+            const Vec3 out = Vec3(vertices.row(v).transpose()) - lids_[lid.side].centre();
+            const double unfolded = std::min(1.0, drive.lid[lid.side].upper_closure / kUnfoldedBy);
+            vertices.row(v) += kUnfolded * unfolded * lid.hollow_m * out.normalized().transpose();
         }
         if (lid.clearance == kNotKept) continue;
         // The lid slides over the cornea: it is lifted where the surface of the eye is nearer than at rest

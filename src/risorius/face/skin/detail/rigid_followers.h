@@ -53,9 +53,11 @@ class RigidFollowers {
         int vertex;
         int side;
         LidMember member;
-        double weight;     ///< 1 on the tarsal plate, 0 where tissue alone moves it
-        double clearance;  ///< distance kept from the eye's surface, m
+        double weight;        ///< 1 on the tarsal plate, 0 where tissue alone moves it
+        double clearance;     ///< distance kept from the eye's surface, m
+        double hollow_m = 0;  ///< depth of the fold of the upper lid, which a closing lid unfolds
     };
+    void measure_folds();  ///< `hollow_m` of all lid vertices so far
     void apply_lids(const FollowDrive& drive, Points& vertices) const;
 
     const rig::Head& head_;
