@@ -90,7 +90,7 @@ double part_along(const Form& form, double PopulationParameter::*change,
 /// is taken back, so that nothing leaves kCut. What is usual in the other sex or at another age is taken back instead, as those are
 /// not exaggerated. How uneven a face is stays as it is in adults.
 Form exaggerated(Form form, const DesignTables& tables) {
-    constexpr double kTakenBack = 0.8;
+    constexpr double kTakenBack = 0.9;
     for (const auto change : {&PopulationParameter::sex, &PopulationParameter::late_age}) {
         const double part = kTakenBack * part_along(form, change, tables);
         for (std::size_t k = 0; k < form.size(); ++k)
@@ -334,7 +334,7 @@ Identity random_person(unsigned seed, const PersonChoice& choice, const DesignTa
     drawn_form(draw, tables);  // what follows it in the sequence does not depend on the row
     const Form form = form_in_row(seed, tables);
     // As all that makes people of rows distinct, what is usual in their sex is exaggerated.
-    const double sex_again = in_row(seed) ? 1.3 * person.sex : 0;
+    const double sex_again = in_row(seed) ? 2.0 * person.sex : 0;
     for (std::size_t k = 0; k < form.size(); ++k) {
         const PopulationParameter& p = tables.population[k];
         person.shape[p.name] = to_hundredths(std::clamp(form[k] + sex_again * p.sex, -kCut, kCut));

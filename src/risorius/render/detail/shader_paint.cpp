@@ -89,7 +89,7 @@ void main() {
     float uneven = noise(p * 0.17 + 410.0) + noise(p * 0.42 + 430.0) - 1.0;
     float fine = noise(p * 1.1 + 450.0) - 0.5;
     float dark = clamp((0.30 - dot(skin_tone, vec3(0.2126, 0.7152, 0.0722))) / 0.25, 0.0, 1.0);   // gloss hides the colour
-    tint += (1.0 + 0.7 * dark) * mottling * (uneven * vec3(-0.17, -0.25, -0.29) + fine * vec3(-0.18, -0.24, -0.26));
+    tint += (1.0 + 0.7 * dark) * mottling * (uneven * vec3(-0.17, -0.26, -0.30) + fine * vec3(-0.08, -0.11, -0.12));
     vec3 albedo = skin_tone * exp(tint);
 
     vec2 from_middle = place - 0.5;
