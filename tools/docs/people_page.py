@@ -128,7 +128,7 @@ def same_person():
         "## The same person",
         "",
         "A face recogniser is to find that pictures of one person show one person. It describes a face by 128 numbers; its own limit for another "
-        f"person is a distance of 0.6, and here it is {limit}. Eight people were rendered from the front, 512 pixels wide: neutral, with seven "
+        f"person is a distance of 0.6, and here it is {limit}. The pictures are of {len(names)} people, from the front, 512 pixels wide: neutral, with seven "
         "expressions at half and at full intensity, with the head turned by 20 degrees to both sides, and in two other lights. The table has the "
         "distance of each picture from the neutral one.",
         "",
@@ -144,7 +144,7 @@ def same_person():
         "",
         "## The first people and those of now",
         "",
-        "Upper rows: the eight people that the program drew first. Lower rows: the people of seeds 1 to 8. Whether viewers who see only pictures prefer "
+        "Upper row: eight people that the program drew at first. Lower row: the people of seeds 1 to 8. Whether viewers who see only pictures prefer "
         "one or the other was not asked, so there are no numbers.",
         "",
         "![Eight people as they were drawn first, and eight people of now](people/comparison.png)",
