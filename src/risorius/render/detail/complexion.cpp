@@ -29,7 +29,8 @@ Complexion complexion_of(const Appearance& appearance) {
     const double many = random.next();
     out.moles = static_cast<int>(much * 7 * many * many);
     for (double* factor : {&out.eyes, &out.cheeks}) *factor = std::min(*factor, 2.2);
-    out.nose = std::min(out.nose, 1.3);  // three zones of it lie over each other
+    // Three zones of the nose lie over each other. Who is not mottled looks as before there were mottles.
+    out.nose = std::min(out.nose, appearance.mottling > 0 ? 1.3 : 2.2);
     return out;
 }
 
