@@ -42,7 +42,8 @@ struct ZajacShape {
     double tendon_toe_exponent = 3;    ///< kt                                      (0, inf)
 };
 
-/// Returns the slope with which the passive curve leaves 0, before its kink is smoothed: k / (e0 (exp(k) - 1)).
+/// Returns the slope with which the published exponential leaves 0: k / (e0 (exp(k) - 1)). The passive curve here has no kink: it leaves
+/// 0 without a slope, and reaches that of the exponential only later.
 double passive_slope(const ZajacShape& shape);
 
 /// Returns the curves. Throws std::invalid_argument when a number is outside its range, when l does not increase from point to

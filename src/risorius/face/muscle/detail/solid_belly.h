@@ -89,7 +89,8 @@ class SolidBelly {
     /// Curves of its fibres.
     muscle::ZajacShape curves(const rig::RigDescription& rig) const;
     /// What the matrix lacks along the fibres. `section_m2`: mean section at rest. The published modulus is that of the whole
-    /// relaxed muscle, so what the passive curve of its fibres adds, once they are stretched, is taken off.
+    /// relaxed muscle, so the first slope of the exponential that the passive curve of its fibres smooths is taken off. At
+    /// small stretches the curve gives less than that, and the muscle is softer than published.
     tissue::AlongFibres::Moduli along_moduli(const muscle::ZajacShape& curves,
                                              double section_m2) const;
     SolidPart place_;
