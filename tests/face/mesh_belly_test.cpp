@@ -12,6 +12,7 @@
 #include "message_of.h"
 #include "paths.h"
 #include "risorius/face/anatomy/detail/jaw.h"
+#include "risorius/face/anatomy/detail/jaw_muscles.h"
 #include "risorius/face/fields.h"
 #include "risorius/face/muscle/detail/muscle_solids.h"
 #include "risorius/muscle/muscle_curves.h"
@@ -158,6 +159,52 @@ TEST(MeshBelly, PullsWithTheForceOfTheTableTimesItsCurves) {
             EXPECT_NEAR(belly.chain_states(block.rest, a).front().force_n, expected, 1e-9);
         }
     EXPECT_NEAR(belly.mass_kg().sum(), 1060 * 4e-6, 1e-9);
+}
+
+// PMC8754054: a tensile anisotropy of 4.67 beside a shear modulus of 1.93 kPa across the fibres is 3 x 1.93 x 4.67 = 27 kPa.
+TEST(MeshBelly, RelaxedFibresPullWithThePublishedModulus) {
+    const auto block = testing_of::tet_block({4, 1, 1}, {0.04, 0.01, 0.01});
+    const auto pull_pa = [&](const rig::SolidMuscle& solid, double stretch) {
+        Prism prism(block);
+        const auto& table = prism.rig.muscles.muscles;
+        prism.part.solid = &solid;
+        prism.part.muscle = &*std::find_if(table.begin(), table.end(), [&](const rig::Muscle& one) {
+            return one.id == solid.muscle;
+        });
+        prism.part.f0_n = 1e-4 * 4e5;  // 0.4 MPa
+        MeshBelly belly(prism.part, prism.nodes, prism.rig);
+        belly.begin_step(std::numeric_limits<double>::infinity(), block.rest);
+        const double across = 1 / std::sqrt(stretch);
+        const Points x = block.rest * Vec3(stretch, across, across).asDiagonal();
+        Points gradient = Points::Zero(x.rows(), 3);
+        double energy = 0;
+        belly.add_energy(x, 0.0, energy, gradient);
+        double pull_n = 0;
+        for (Eigen::Index i = 0; i < gradient.rows(); ++i)
+            if (block.rest(i, 0) == 0) pull_n -= gradient(i, 0);
+        return pull_n / 1e-4;
+    };
+    ASSERT_EQ(rig::adult().rig.solids.size(), 7u);
+    for (const rig::SolidMuscle& solid : rig::adult().rig.solids) {
+        rig::SolidMuscle matrix = solid;
+        matrix.stretch_along_pa = 0;
+        const auto of_fibres_pa = [&](double stretch) {
+            return pull_pa(solid, stretch) - pull_pa(matrix, stretch);
+        };
+        EXPECT_NEAR(of_fibres_pa(1.01), 0.01 * 3 * 1930 * 4.67, 2) << solid.muscle;
+        EXPECT_NEAR(of_fibres_pa(1.1), 0.1 * 3 * 1930 * 4.67, 20) << solid.muscle;
+        EXPECT_NEAR(of_fibres_pa(0.9), 0, 1e-6) << solid.muscle << ": shortened fibres are slack";
+    }
+}
+
+// Peck et al. 2000: jaw muscles have 1.5 % of their force at 1.5 times their length.
+TEST(MeshBelly, RelaxedJawMusclesPullAsPublishedOrMore) {
+    const double published = 0.015;
+    const muscle::MuscleCurves curves = muscle::zajac_curves({.passive_strain = kJawPassiveStrain});
+    EXPECT_NEAR(curves.passive.value(1.5), published, 0.1 * published);
+    for (const rig::SolidMuscle& solid : rig::adult().rig.solids)
+        if (solid.muscle.starts_with("masseter") || solid.muscle.starts_with("temporalis"))
+            EXPECT_GT(0.5 * solid.stretch_along_pa, published * 4e5) << solid.muscle;
 }
 
 TEST(MeshBelly, HasTheDerivativesOfItsEnergy) {

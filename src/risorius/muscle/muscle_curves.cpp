@@ -65,10 +65,6 @@ Curve tendon_curve(double strain, double toe_force, double k) {
 
 }  // namespace
 
-double passive_slope(const ZajacShape& shape) {
-    return shape.passive_exponent / (shape.passive_strain * std::expm1(shape.passive_exponent));
-}
-
 MuscleCurves zajac_curves(const ZajacShape& shape) {
     require(shape.passive_strain > 0, "passive_strain > 0");
     require(shape.passive_exponent > 0, "passive_exponent > 0");

@@ -42,10 +42,6 @@ struct ZajacShape {
     double tendon_toe_exponent = 3;    ///< kt                                      (0, inf)
 };
 
-/// Returns the slope with which the published exponential leaves 0: k / (e0 (exp(k) - 1)). The passive curve here has no kink: it leaves
-/// 0 without a slope, and reaches that of the exponential only later.
-double passive_slope(const ZajacShape& shape);
-
 /// Returns the curves. Throws std::invalid_argument when a number is outside its range, when l does not increase from point to
 /// point, or when the active curve has no peak.
 MuscleCurves zajac_curves(const ZajacShape& shape = {});

@@ -23,10 +23,12 @@
 
 namespace risorius::face {
 
-/// Shape of the passive curve of relaxed jaw muscles: the passive force is 0.4 % of F0 at 1.5 times the length. Published is 1.5 % (Peck et
-/// al. 2000), which is 2.0 here. Volume muscles have more than the rest in their matrix, so that with 2.0 the jaw would open too little;
-/// muscles that are lines are softer than published.
-inline constexpr double kJawPassiveStrain = 3.4;
+/// Shape of the passive curve of relaxed jaw muscles: the passive force is 1.5 % of F0 at 1.5 times the length (Peck et al. 2000).
+inline constexpr double kJawPassiveStrain = 2.0;
+
+/// The same for volume muscles of the jaw, whose fibres add next to nothing: their matrix pulls along the fibres by `stretch_along_pa`. At
+/// 1.5 times the length that is 13.5 kPa, where the 1.5 % are 6 kPa.
+inline constexpr double kJawVolumePassiveStrain = 10;
 
 /// One side of a muscle of jaw or hyoid on one head.
 struct JawMuscle {

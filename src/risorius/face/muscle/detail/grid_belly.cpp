@@ -37,17 +37,6 @@ Vec3 place_in_cell(const Vec3& p, const Eigen::Matrix<double, 3, 8>& corner) {
     return s;
 }
 
-/// Volume of the belly over the mean length of its rows of nodes.
-double mean_section_m2(const std::vector<tissue::StrainPoint>& points, const Points& rest,
-                       const tissue::GridShape& grid) {
-    double volume_m3 = 0, length_m = 0;
-    for (const tissue::StrainPoint& point : points) volume_m3 += point.volume_m3;
-    const Eigen::Index row = grid.n * grid.o;
-    for (Eigen::Index i = row; i < rest.rows(); ++i)
-        length_m += (rest.row(i) - rest.row(i - row)).norm();
-    return volume_m3 * static_cast<double>(row) / length_m;
-}
-
 /// Corners of a cell (4 b1 + 2 b2 + b3) in the order of VTK: round its lower face, then round the upper one.
 constexpr std::array<int, 8> kRound{0, 4, 6, 2, 1, 5, 7, 3};
 
@@ -71,11 +60,8 @@ GridBelly::GridBelly(const SolidPart& place, const SolidPlacement& nodes,
             tissue::uniform_cells(grid), rest_at,
             {solid.shear_pa, solid.volume_pa, rig.tissue.damping_s * solid.shear_pa},
             kMuscleDensity_kg_m3));
-        if (solid.is_stiffer_along()) {
-            auto points = tissue::strain_points(cells_->mesh(), rest_);
-            const double section_m2 = mean_section_m2(points, rest_, grid);
-            along_.emplace(std::move(points), along_moduli(curves, section_m2));
-        }
+        if (solid.is_stiffer_along())
+            along_.emplace(tissue::strain_points(cells_->mesh(), rest_), along_moduli());
     } catch (const std::invalid_argument&) {
         throw Error("anatomy/solids/" + place_.muscle->id,
                     "a muscle whose cells have volume on this head", "a folded cell");

@@ -45,8 +45,7 @@ MeshBelly::MeshBelly(const SolidPart& place, const SolidPlacement& nodes,
     volumes_ = std::make_unique<tissue::NodeVolumes>(place_.tets, rest_, solid.volume_pa - own);
     const muscle::ZajacShape curves = this->curves(rig);
     if (solid.is_stiffer_along())
-        along_.emplace(tissue::strain_points(place_.tets, rest_, place_.fibres),
-                       along_moduli(curves, rest_volume_ / place_.length_m));
+        along_.emplace(tissue::strain_points(place_.tets, rest_, place_.fibres), along_moduli());
     f0_n_ = built_f0_n_ = place_.f0_n;
     fibres_ = std::make_unique<muscle::FibreTets>(
         muscle::FibreTetsParameters{.tension_pa = 1,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/face/muscle/detail/solid_belly.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "risorius/face/anatomy/detail/jaw_muscles.h"
@@ -19,17 +18,14 @@ SolidBelly::SolidBelly(SolidPart place, const SolidPlacement& nodes) : place_(st
 
 muscle::ZajacShape SolidBelly::curves(const rig::RigDescription& rig) const {
     muscle::ZajacShape shape;
-    shape.passive_strain =
-        place_.muscle->group == "mimetic" ? rig.tissue.fibre_passive_strain : kJawPassiveStrain;
+    shape.passive_strain = place_.muscle->group == "mimetic" ? rig.tissue.fibre_passive_strain
+                                                             : kJawVolumePassiveStrain;
     return shape;
 }
 
-tissue::AlongFibres::Moduli SolidBelly::along_moduli(const muscle::ZajacShape& curves,
-                                                     double section_m2) const {
+tissue::AlongFibres::Moduli SolidBelly::along_moduli() const {
     const rig::SolidMuscle& solid = *place_.solid;
-    const double of_fibres_pa = place_.f0_n / section_m2 * muscle::passive_slope(curves);
-    return {solid.shear_along_pa - solid.shear_pa,
-            std::max(solid.stretch_along_pa - of_fibres_pa, 0.0)};
+    return {solid.shear_along_pa - solid.shear_pa, solid.stretch_along_pa};
 }
 
 void add_blocks(const solve::SymmetricBlocks& blocks, const std::vector<int>& row,

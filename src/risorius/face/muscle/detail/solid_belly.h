@@ -88,11 +88,9 @@ class SolidBelly {
     SolidBelly(SolidPart place, const SolidPlacement& nodes);
     /// Curves of its fibres.
     muscle::ZajacShape curves(const rig::RigDescription& rig) const;
-    /// What the matrix lacks along the fibres. `section_m2`: mean section at rest. The published modulus is that of the whole
-    /// relaxed muscle, so the first slope of the exponential that the passive curve of its fibres smooths is taken off. At
-    /// small stretches the curve gives less than that, and the muscle is softer than published.
-    tissue::AlongFibres::Moduli along_moduli(const muscle::ZajacShape& curves,
-                                             double section_m2) const;
+    /// What the isotropic matrix lacks along the fibres. The passive curve of the fibres begins without a slope, so it adds nothing
+    /// to the published modulus, which was measured at small strains.
+    tissue::AlongFibres::Moduli along_moduli() const;
     SolidPart place_;
     Points rest_;
 };
