@@ -14,7 +14,7 @@ namespace risorius::talk {
 namespace {
 
 // Weights of the measures, 1/mm, and of the others. Found by trying on the adult.
-constexpr double kGapWeight = 1, kBoundWeight = 3, kWidthWeight = 0.4, kProtrusionWeight = 0.4,
+constexpr double kGapWeight = 1, kBoundWeight = 3, kWidthWeight = 0.46, kProtrusionWeight = 0.4,
                  kTeethWeight = 2, kEffortWeight = 0.05, kSumWeight = 60, kRidge = 0.005;
 // Cost of a pose by its distance from the wanted mouth: near poses mix almost linearly, far ones do not.
 constexpr double kFarCost = 0.06, kFarGap_mm = 1.5, kFarJaw_mm = 1.5, kFarWidth_mm = 3,
