@@ -14,7 +14,7 @@ namespace risorius::fitting {
 
 namespace {
 
-constexpr double kNearEnough = 0.03;          // of the gain
+constexpr double kNearEnough = 0.005;         // of the gain
 constexpr double kLeast = 0.2, kLargest = 5;  // factors
 constexpr double kNothing = 0.02;  // a smaller gain: muscles that this face does not simulate
 constexpr int kScalings = 5;

@@ -15,8 +15,8 @@
 namespace risorius::rig {
 
 /// Factor on the forces of the table for muscles of jaw and hyoid, which assume a stress of 40 N/cm2 in all muscles. With the table alone
-/// the incisors would bite with 540 N; with this factor they bite with 350 N. Measured values are 150 to 400 N.
-inline constexpr double kJawForceFraction = 0.65;
+/// the incisors would bite with 540 N; with this factor they bite with 360 N. Measured values are 150 to 400 N.
+inline constexpr double kJawForceFraction = 0.67;
 
 /// How a muscle is simulated.
 enum class MuscleModel {
