@@ -60,6 +60,47 @@ TEST(Light, AGreyCardOf18PercentComesOutAs18PercentUnderEveryPreset) {
     }
 }
 
+/// Linear green of the card before a head of this skin.
+double of_card(const Vec3& skin_tone, Meter meter, const std::string& preset = "studio",
+               std::optional<Surroundings> surroundings = std::nullopt) {
+    RoundHead head = with_card(0.12);
+    head.scene.appearance.skin_tone = skin_tone;
+    ViewOptions options = lit_by(preset);
+    options.light.meter = meter;
+    options.light.surroundings = std::move(surroundings);
+    OffscreenView view(head.scene, options);
+    const Vec2 at = view.project(Vec3(0, 0, 0.13));
+    return linear(
+        view.draw(head.pose).pixel(static_cast<int>(at.x()), static_cast<int>(at.y()))[1]);
+}
+
+TEST(Light, DarkSkinGetsMoreExposureUnlessTheLightIsForACard) {
+    const Vec3 darkest(0.20, 0.14, 0.11), dark(0.45, 0.31, 0.25), light(0.80, 0.60, 0.50);
+    for (const std::string& preset : light_names()) {
+        EXPECT_NEAR(of_card(light, Meter::kSkin, preset), 0.12, 0.0012) << preset;
+        EXPECT_NEAR(of_card(darkest, Meter::kCard, preset), 0.12, 0.0012) << preset;
+        EXPECT_NEAR(of_card(darkest, Meter::kSkin, preset), std::exp2(0.8) * 0.12, 0.003) << preset;
+    }
+    const double between = of_card(dark, Meter::kSkin);
+    EXPECT_GT(between, 1.2 * 0.12);
+    EXPECT_LT(between, 1.7 * 0.12);
+    const Surroundings even{8, 4, std::vector<float>(96, 1.0F)};
+    EXPECT_NEAR(of_card(darkest, Meter::kSkin, "studio", even), 0.12, 0.0012)
+        << "a picture of the surroundings is as it was taken";
+}
+
+TEST(Light, DarkSkinGetsMoreFill) {
+    const LightPlan card = plan_light({}, 0.0);
+    LightPlan plan = card;
+    EXPECT_EQ(suit_skin(Vec3(0.80, 0.60, 0.50), plan), 0.0);
+    EXPECT_EQ(plan.fill.card, card.fill.card);
+    EXPECT_NEAR(suit_skin(Vec3(0.20, 0.14, 0.11), plan), 0.8, 1e-12);
+    EXPECT_NEAR(plan.fill.card.x() / card.fill.card.x(), 1.8, 1e-12);
+    EXPECT_EQ(plan.key.card, card.key.card);
+    for (std::size_t i = 0; i < plan.surroundings.rgb.size(); ++i)
+        EXPECT_NEAR(plan.surroundings.rgb[i], 1.8 * card.surroundings.rgb[i], 1e-5);
+}
+
 TEST(Light, AStopMoreDoublesTheLightOfACard) {
     const RoundHead head = with_card(0.12);
     const auto shines = [&](double ev) {

@@ -133,6 +133,7 @@ render::LightOptions light_of(const track::ScriptLight& asked) {
     light.preset = asked.preset;
     light.turn_deg = asked.turn_deg;
     light.exposure_ev = asked.exposure_ev;
+    light.meter = asked.for_card ? render::Meter::kCard : render::Meter::kSkin;
     if (asked.file.empty()) return light;
     media::HdrPicture map = media::read_hdr(asked.file);
     if (map.width != 2 * map.height)

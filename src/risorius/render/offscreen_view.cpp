@@ -104,8 +104,8 @@ struct OffscreenView::Impl {
             throw Error("projection", "\"perspective\" when muscles are shown", "\"orthographic\"");
         const GlContext::Current current(context);
         const Vec3 centre = paint_centre(scene, box.min, box.max);
-        lights = std::make_unique<Lights>(camera, centre, options.light, options.height_px,
-                                          options.draft);
+        lights = std::make_unique<Lights>(camera, centre, options.light, scene.appearance.skin_tone,
+                                          options.height_px, options.draft);
         const ShaderConstants lit = lights->constants();
         if (options.show == Show::kMuscles)
             muscles = std::make_unique<MuscleLayer>(

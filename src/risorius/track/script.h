@@ -29,6 +29,7 @@ struct ScriptLight {
     std::filesystem::path file;
     double turn_deg = 0;     ///< [-360, 360]
     double exposure_ev = 0;  ///< [-10, 10]
+    bool for_card = false;   ///< for a grey card instead of the skin
 };
 
 /// The "view" of a script.

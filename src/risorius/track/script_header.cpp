@@ -22,11 +22,12 @@ ScriptLight read_light(const JsonCursor& json) {
         preset(json);
         return light;
     }
-    json.allow_keys({"preset", "file", "turn_deg", "exposure_ev"});
+    json.allow_keys({"preset", "file", "turn_deg", "exposure_ev", "meter"});
     if (const auto v = json.find("preset")) preset(*v);
     if (const auto v = json.find("file")) light.file = existing_file(*v);
     if (const auto v = json.find("turn_deg")) light.turn_deg = v->number({-360, 360});
     if (const auto v = json.find("exposure_ev")) light.exposure_ev = v->number({-10, 10});
+    if (const auto v = json.find("meter")) light.for_card = v->one_of({"skin", "card"}) == "card";
     return light;
 }
 

@@ -2,9 +2,9 @@
 /// \file
 /// The lighting of a picture: lamps, surroundings and exposure.
 ///
-/// Exposure and white balance depend only on the light: a grey card of 18 % reflectance that stands at the face and is turned to
-/// the camera has a linear value of 0.18 in every picture. Below kStraightTo, pixel values (sRGB decoded) are proportional to
-/// light.
+/// White balance depends only on the light, and so does the exposure where the light is not set for dark skin: a grey card of 18 %
+/// reflectance that stands at the face and is turned to the camera has a linear value of 0.18 then. Below kStraightTo, pixel
+/// values (sRGB decoded) are proportional to light.
 #pragma once
 
 #include <optional>
@@ -22,12 +22,19 @@ struct Surroundings {
     bool operator==(const Surroundings&) const = default;
 };
 
+/// What the lamps and the exposure of a preset are set for.
+enum class Meter {
+    kSkin,  ///< dark skin gets a stronger fill and more exposure, skin as light as the adult's nothing
+    kCard  ///< the same for every face
+};
+
 struct LightOptions {
     std::string preset = "studio";             ///< one of light_names(); moves with the camera
     std::optional<Surroundings> surroundings;  ///< replaces the preset; fixed to the head frame
     /// Rotation of all light about the vertical axis, positive towards the subject's left
     double turn_deg = 0;
-    double exposure_ev = 0;  ///< added to the exposure of the grey card, stops, -10..10
+    double exposure_ev = 0;      ///< added to the exposure, stops, -10..10
+    Meter meter = Meter::kSkin;  ///< without effect on `surroundings`
     bool operator==(const LightOptions&) const = default;
 };
 

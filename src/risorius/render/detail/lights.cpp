@@ -29,12 +29,15 @@ void put(float* to, const Vec3& v) {
 }  // namespace
 
 Lights::Lights(const Camera& camera, const Vec3& head_centre, const LightOptions& options,
-               int height_px, bool draft)
+               const Vec3& skin_tone, int height_px, bool draft)
     : program_("shadow", depth_vertex_shader(), ""),
       clip_location_(program_.location("clip_from_world")),
       shadow_side_(shadow_side(camera, height_px, draft)) {
-    const LightPlan plan = plan_light(options, camera.azimuth_rad);
-    const Vec3 exposure = exposure_for(plan, options.exposure_ev), key = plan.key.direction;
+    LightPlan plan = plan_light(options, camera.azimuth_rad);
+    const double more_ev =
+        options.meter == Meter::kSkin && !options.surroundings ? suit_skin(skin_tone, plan) : 0.0;
+    const Vec3 exposure = exposure_for(plan, options.exposure_ev + more_ev),
+               key = plan.key.direction;
     shadow_ = plan.key.card.maxCoeff() > 0;
     put(frame_.camera, camera.eye_point());
     put(frame_.key_direction, key);

@@ -25,6 +25,11 @@ struct LightPlan {
 /// and for numbers out of range.
 LightPlan plan_light(const LightOptions& options, double camera_azimuth_rad);
 
+/// Sets the light of a preset for a tone of skin, sRGB. With the darkest skin, fill and surroundings are 1.8 times as strong. Returns
+/// the stops by which the exposure is to grow, 0 to 0.8. Skin with a luminance of 0.3 or more changes nothing, that of 0.05 is
+/// the darkest.
+double suit_skin(const Vec3& skin_tone, LightPlan& plan);
+
 /// Returns the factor per channel that gives a white card at the face the value 1, times 2^exposure_ev.
 Vec3 exposure_for(const LightPlan& plan, double exposure_ev);
 
@@ -32,9 +37,10 @@ class LockLayer;
 
 class Lights {
   public:
-    /// `height_px`: height of the picture. Small pictures and drafts get a shadow map with half as many texels per side.
+    /// `skin_tone`: sRGB. `height_px`: height of the picture. Small pictures and drafts get a shadow map with half as many texels per
+    /// side.
     Lights(const Camera& camera, const Vec3& head_centre, const LightOptions& options,
-           int height_px, bool draft);
+           const Vec3& skin_tone, int height_px, bool draft);
     ~Lights();
     Lights(const Lights&) = delete;
     Lights& operator=(const Lights&) = delete;
