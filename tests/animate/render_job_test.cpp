@@ -219,6 +219,26 @@ TEST(RenderJob, OfAScriptThatSpeaksMayBeAFolderOfFrames) {
     EXPECT_TRUE(video.warnings.empty());
 }
 
+TEST(RenderJob, SetsTheLightForTheSkinOrForACard) {
+    const auto meter_of = [](const Json& light) {
+        RenderRequest request;
+        request.script = "a design, clip one";
+        Json script = short_script(kRoot / "rigs/adult/rig.json");
+        script["view"]["light"] = light;
+        request.script_in_memory = JsonCursor::from_json(script, request.script.string());
+        request.out = "smile.mkv";
+        return plan_render_job(request).view.light.meter;
+    };
+    EXPECT_EQ(meter_of("portrait"), render::Meter::kSkin);
+    EXPECT_EQ(meter_of({{"turn_deg", 10}}), render::Meter::kSkin);
+    EXPECT_EQ(meter_of({{"meter", "card"}}), render::Meter::kCard);
+    EXPECT_EQ(message_of([&] {
+                  meter_of({{"meter", "face"}});
+              }),
+              "a design, clip one:/view/light/meter: expected one of \"skin\", \"card\", found "
+              "\"face\"");
+}
+
 TEST(RenderJob, LeavesTheHairOutWhereItIsAskedTo) {
     const TemporaryFolder folder;
     const fs::path rig = own_rig(folder.path());
