@@ -235,7 +235,7 @@ TEST(RenderJob, SetsTheLightForTheSkinOrForACard) {
     EXPECT_EQ(message_of([&] {
                   meter_of({{"meter", "face"}});
               }),
-              "a design, clip one:/view/light/meter: expected one of \"skin\", \"card\", found "
+              "a design, clip one:/view/light/meter: expected one of \"skin\" \"card\", found "
               "\"face\"");
 }
 

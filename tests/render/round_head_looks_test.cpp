@@ -114,7 +114,9 @@ TEST_F(RoundHeadLooks, TheWhiteOfTheEyeIsBrighterThanTheIrisAndThatThanThePupil)
     // The white is not the same paint for everybody: people with dark skin have a darker one.
     RoundHead dark;
     dark.scene.appearance.skin_tone = Vec3(0.42, 0.29, 0.22);
-    OffscreenView view(dark.scene, small());
+    ViewOptions same_light = small();
+    same_light.light.meter = Meter::kCard;
+    OffscreenView view(dark.scene, same_light);
     const Vec2 place = view.project(eye + Vec3(0.0, -0.0083, 0.0105));
     const Image picture = view.draw(dark.pose);
     const std::uint8_t* there =
