@@ -68,11 +68,15 @@ void print_rig(const Json& info) {
         std::printf(
             "\nShear modulus of the tissue around relaxed volume muscles, mean and softest, over "
             "that of the muscle (Pa)\n");
-    for (const Json& solid : info["beside_solids"])
-        std::printf("  %-34s .%s  %5.0f (%4.0f) / %5.0f = %.2f\n", text(solid["muscle"]).c_str(),
-                    text(solid["side"]).c_str(), solid["tissue_shear_pa"].get<double>(),
-                    solid["softest_pa"].get<double>(), solid["muscle_shear_pa"].get<double>(),
-                    solid["beside_solids_ratio"].get<double>());
+    for (const Json& solid : info["beside_solids"]) {
+        std::printf("  %-34s .%s  ", text(solid["muscle"]).c_str(), text(solid["side"]).c_str());
+        if (solid["tissue_shear_pa"].get<double>() > 0)
+            std::printf("%5.0f (%4.0f) / %5.0f = %.2f\n", solid["tissue_shear_pa"].get<double>(),
+                        solid["softest_pa"].get<double>(), solid["muscle_shear_pa"].get<double>(),
+                        solid["beside_solids_ratio"].get<double>());
+        else
+            std::printf("none: no simulated tissue touches it\n");
+    }
     std::printf("\nAction units\n");
     for (const Json& unit : info["action_units"])
         std::printf("  %-12s %-5s  %s\n", text(unit["id"]).c_str(),
