@@ -25,7 +25,7 @@ class Creases {
         : scene_(scene),
           centre_(centre),
           skin_(linear_from_srgb(scene.appearance.skin_tone)),
-          dark_(std::clamp((0.30 - skin_.dot(Vec3(0.2126, 0.7152, 0.0722))) / 0.25, 0.0, 1.0)),
+          dark_(skin_darkness(skin_)),
           random_(scene.appearance.seed * 7001U + 3U),
           // Appearance::age runs from 25 to 75 years.
           years_(25 + 50 * scene.appearance.age) {

@@ -138,10 +138,8 @@ LightPlan plan_light(const LightOptions& options, double camera_azimuth_rad) {
 }
 
 double suit_skin(const Vec3& skin_tone, LightPlan& plan) {
-    constexpr double kLight = 0.30, kDark = 0.05;  // luminances between which all grows
     constexpr double kMoreFill = 0.8, kMoreExposure_ev = 0.8;
-    const double luminance = linear_from_srgb(skin_tone).dot(Vec3(0.2126, 0.7152, 0.0722)),
-                 dark = std::clamp((kLight - luminance) / (kLight - kDark), 0.0, 1.0);
+    const double dark = skin_darkness(linear_from_srgb(skin_tone));
     plan.fill.card *= 1 + kMoreFill * dark;
     for (float& radiance : plan.surroundings.rgb)
         radiance *= static_cast<float>(1 + kMoreFill * dark);

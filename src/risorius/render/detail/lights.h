@@ -26,8 +26,7 @@ struct LightPlan {
 LightPlan plan_light(const LightOptions& options, double camera_azimuth_rad);
 
 /// Sets the light of a preset for a tone of skin, sRGB. With the darkest skin, fill and surroundings are 1.8 times as strong. Returns
-/// the stops by which the exposure is to grow, 0 to 0.8. Skin with a luminance of 0.3 or more changes nothing, that of 0.05 is
-/// the darkest.
+/// the stops by which the exposure is to grow, 0 to 0.8. Both grow with skin_darkness().
 double suit_skin(const Vec3& skin_tone, LightPlan& plan);
 
 /// Returns the factor per channel that gives a white card at the face the value 1, times 2^exposure_ev.

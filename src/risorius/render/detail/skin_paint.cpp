@@ -96,6 +96,10 @@ Vec3 linear_from_srgb(const Vec3& srgb) {
     return srgb.unaryExpr([](double encoded) { return linear_of_srgb(encoded); });
 }
 
+double skin_darkness(const Vec3& tone) {
+    return std::clamp((0.30 - tone.dot(Vec3(0.2126, 0.7152, 0.0722))) / 0.25, 0.0, 1.0);
+}
+
 Vec2 paint_place(const Vec3& rest, const Vec3& centre) {
     const Vec3 d = (rest - centre).normalized();
     const double scale = std::sqrt(2 / std::max(1 + d.z(), 1e-6));

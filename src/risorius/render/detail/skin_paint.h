@@ -44,4 +44,7 @@ GLuint make_pores(unsigned seed);
 /// Converts sRGB to linear light, both 0..1.
 Vec3 linear_from_srgb(const Vec3& srgb);
 
+/// How dark a tone of skin is, 0..1: 0 for a luminance of 0.30 or more, 1 for 0.05 or less. `tone`: linear, 0..1.
+double skin_darkness(const Vec3& tone);
+
 }  // namespace risorius::render
