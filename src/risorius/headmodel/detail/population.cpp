@@ -195,12 +195,12 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
     const double brow = std::clamp(draw.normal(), -2.0, 2.0),
                  height = std::clamp(draw.normal(), -2.0, 2.0);
     person.hairdo.brow_density =
-        to_hundredths(std::min((man ? 1.25 : 0.95) * std::exp(0.5 * brow), kBrowDensityRange.max));
+        to_hundredths(std::min((man ? 1.25 : 0.85) * std::exp(0.5 * brow), kBrowDensityRange.max));
     person.hairdo.brow_width =
         to_hundredths(std::min((man ? 1.15 : 0.65) * std::exp(0.32 * height), kBrowWidthRange.max));
     // Seven of ten women paint their lips, and those of the others are redder than men's; estimates.
     const double painted = draw.even(), red = draw.even();
-    if (!man) person.lipstick = painted < 0.7 ? to_hundredths(0.3 + 0.5 * red) : 0.15;
+    if (!man) person.lipstick = painted < 0.7 ? to_hundredths(0.4 + 0.4 * red) : 0.25;
     // Of men six in ten are shaved or have stubble.
     const double kind = draw.even(), growth = draw.even();
     if (man && kind >= 0.6) {
@@ -243,9 +243,9 @@ Melanin melanin_of(const std::string& ancestry) {
 }
 
 /// The tone of the skin by its pigments, and how much it shines: less with the years (Pochi et al. 1979). It has a sequence of its
-/// own.
-void draw_skin(unsigned seed, const std::string& ancestry, Identity& person) {
-    Draw draw(seed + kSkinSequence);
+/// own, another one for each draw of a form.
+void draw_skin(unsigned seed, unsigned which_form, const std::string& ancestry, Identity& person) {
+    Draw draw(seed + kSkinSequence + which_form * kFormSequence);
     const auto normal = [&] { return std::clamp(draw.normal(), -2.0, 2.0); };
     const Melanin melanin = melanin_of(ancestry);
     person.melanin = to_hundredths(std::clamp(melanin.mean + melanin.sd * normal(), 0.0, 1.0));
@@ -258,27 +258,33 @@ void draw_skin(unsigned seed, const std::string& ancestry, Identity& person) {
 /// and, in the same unit, the tone of its skin and its years.
 Form look_of(const Identity& person, const Form& usual, const Form& form,
              const DesignTables& tables) {
-    constexpr double kMelanin = 10, kYears = 0.2;
+    constexpr double kMelanin = 25, kYears = 0.3;
     Form look{kMelanin * *person.melanin, kYears * person.age};
     for (std::size_t k = 0; k < form.size(); ++k)
         look.push_back(tables.population[k].seen * (usual[k] + form[k]));
     return look;
 }
 
-/// Of some forms that a seed draws, the one that is seen to differ most from the 23 before it in its row. Seeds that a program draws at
-/// random are in no row.
-Form form_in_row(unsigned seed, const DesignTables& tables) {
-    constexpr unsigned kRow = 48, kBefore = 23, kCandidates = 48;
+/// One of the forms that a seed draws; the first is 0.
+struct FormDraw {
+    Form form;
+    unsigned which;
+};
+
+/// Of some forms that a seed draws, each with a tone of skin, the one that is seen to differ most from the 23 before it in its row. Seeds
+/// that a program draws at random are in no row.
+FormDraw form_in_row(unsigned seed, const DesignTables& tables) {
+    constexpr unsigned kRow = 48, kBefore = 23, kCandidates = 96;
     if (!in_row(seed)) {
         Draw draw(seed);
-        return drawn_form(draw, tables);
+        return {drawn_form(draw, tables), 0};
     }
     const unsigned first = (seed - 1) / kRow * kRow + 1;
     std::vector<Form> looks;
-    Form best;
+    FormDraw best{};
     for (unsigned member = first; member <= seed; ++member) {
         Identity person = placed_person(member, tables);
-        draw_skin(member, person.ancestry.begin()->first, person);
+        const std::string ancestry = person.ancestry.begin()->first;
         const auto shape = person_shape(person, tables);
         Form usual, best_look;
         for (const PopulationParameter& p : tables.population) usual.push_back(shape.at(p.name));
@@ -286,13 +292,14 @@ Form form_in_row(unsigned seed, const DesignTables& tables) {
         for (unsigned c = 0; c < (looks.empty() ? 1 : kCandidates); ++c) {
             Draw draw(member + c * kFormSequence);
             Form form = exaggerated(drawn_form(draw, tables), tables);
+            draw_skin(member, c, ancestry, person);
             Form look = look_of(person, usual, form, tables);
             double nearest = std::numeric_limits<double>::infinity();
             for (const Form& other : looks)
                 nearest = std::min(nearest, squared_distance(look, other));
             if (nearest <= farthest) continue;
             farthest = nearest;
-            best = std::move(form);
+            best = {std::move(form), c};
             best_look = std::move(look);
         }
         looks.push_back(std::move(best_look));
@@ -332,7 +339,7 @@ Identity random_person(unsigned seed, const PersonChoice& choice, const DesignTa
     index_of_name("ancestry", ancestry, tables.ancestries);
     person.ancestry = {{ancestry, 1}};
     drawn_form(draw, tables);  // what follows it in the sequence does not depend on the row
-    const Form form = form_in_row(seed, tables);
+    const auto [form, which_form] = form_in_row(seed, tables);
     // As all that makes people of rows distinct, what is usual in their sex is exaggerated.
     const double sex_again = in_row(seed) ? 2.0 * person.sex : 0;
     for (std::size_t k = 0; k < form.size(); ++k) {
@@ -341,7 +348,7 @@ Identity random_person(unsigned seed, const PersonChoice& choice, const DesignTa
     }
     draw_colours(draw, ancestry, person);
     draw_hair(seed, ancestry, tables, person);
-    draw_skin(seed, ancestry, person);
+    draw_skin(seed, which_form, ancestry, person);
     person.hairdo.complexion = 1;
     person.hairdo.garment = "crew_neck";  // all wear the same
     return person;
