@@ -239,7 +239,7 @@ TEST(Person, ColoursHairAndLipsAsAdultsDo) {
         for (unsigned seed = kFirst; seed < kFirst + kPersons; ++seed) {
             const Identity person = random_person(seed, {.sex = sex, .age = 75}, design());
             dark += (person.hairdo.grey.value() < 0.16) / static_cast<double>(kPersons);
-            red += (person.lipstick > 0.2) / static_cast<double>(kPersons);
+            red += (person.lipstick > 0.3) / static_cast<double>(kPersons);
         }
         EXPECT_NEAR(dark, coloured, 0.08) << sex;
         EXPECT_NEAR(red, painted, 0.08) << sex;

@@ -136,11 +136,11 @@ class Creases {
     void glabella(double side) {
         const Vec3* g = mark("g");
         if (!g) return;
-        const double deep = own_.glabella * grown(26, 56, years_) * even(0.4, 1.0),
+        const double deep = 0.7 * own_.glabella * grown(26, 56, years_) * even(0.4, 1.0),
                      x = side * even(0.005, 0.008);
-        crease(bow(*g + Vec3(x, -0.004, 0), *g + Vec3(1.3 * x, even(0.008, 0.013), 0),
-                   Vec3(-0.1 * x, 0, 0)),
-               0.9, deep);
+        crease(bow(*g + Vec3(x, -0.007, 0), *g + Vec3(1.35 * x, even(0.010, 0.015), 0),
+                   Vec3(-0.15 * x, 0, 0)),
+               1.1, deep);
     }
     void crows_feet(double side) {
         const Vec3* ex = mark("ex", side);

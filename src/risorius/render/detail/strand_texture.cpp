@@ -56,7 +56,7 @@ std::vector<std::uint8_t> strand_texels(unsigned seed, double white_share) {
             static_cast<std::uint8_t>(std::lround(255 * std::clamp(bright[k], 0.0F, 1.0F)));
         // Hairs lie side by side in every strand, so that none is all white or all dark.
         const auto mixed =
-            static_cast<float>(white_share + 0.45 * (static_cast<double>(white[k]) - white_share));
+            static_cast<float>(white_share + 0.30 * (static_cast<double>(white[k]) - white_share));
         texels[2 * k + 1] =
             static_cast<std::uint8_t>(std::lround(255 * std::clamp(mixed, 0.0F, 1.0F)));
     }
