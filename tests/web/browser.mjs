@@ -83,6 +83,48 @@ await test("a key is dragged, saved, undone 50 times, and the file is what the p
   await until(page, (keys) => JSON.stringify(window.studio.script().script.channels.AU12.keys) === keys, JSON.stringify(script.channels.AU12.keys));
 });
 
+await test("an edited key is shown", async () => {
+  await page.evaluate(() => window.studio.ask({ type: "seek", t_s: 0.2 }));
+  await until(page, () => Math.abs(window.studio.state().t_s - 0.2) < 1e-6 && !window.studio.state().computing && Math.abs(window.studio.pose().t_s - 0.2) < 1e-6);
+  await page.locator('[data-key="AU12 1"]').focus();
+  const first = [];
+  const exact = [];
+  const edits = 11;
+  for (let i = 0; i < edits; i++) {
+    await page.evaluate(() => {
+      const vertices = () => Float64Array.from(window.studio.pose().vertices, (x) => 1e3 * window.studio.scene().unit_m * x);
+      const before = vertices();
+      const revision = window.studio.script().revision;
+      window.edited = null;
+      const began = { ms: 0 };
+      document.activeElement.addEventListener("keydown", () => (began.ms = performance.now()), { once: true, capture: true });
+      let shown = 0;
+      // A frame of the page after a pose in which some vertex has moved by a hundredth of a millimetre
+      const look = (now) => {
+        if (began.ms && !shown) {
+          const there = vertices();
+          if (there.some((x, k) => Math.abs(x - before[k]) > 0.01)) shown = now;
+        }
+        const state = window.studio.state();
+        if (shown && window.studio.script().revision > revision && !state.computing && Math.abs(window.studio.pose().t_s - 0.2) < 1e-6) window.edited = { shown: shown - began.ms, exact: now - began.ms };
+        else requestAnimationFrame(look);
+      };
+      requestAnimationFrame(look);
+    });
+    await page.keyboard.press(i % 2 ? "Shift+ArrowDown" : "Shift+ArrowUp");
+    await until(page, () => window.edited);
+    const took = await page.evaluate(() => window.edited);
+    first.push(took.shown);
+    exact.push(took.exact);
+    await page.waitForTimeout(300);
+  }
+  const middle = (all) => all.sort((a, b) => a - b)[(edits - 1) / 2].toFixed(0);
+  console.log(`      from the edit to a face that has moved: median ${middle(first)} ms, largest ${Math.max(...first).toFixed(0)} ms; to the face of that moment: ${middle(exact)} and ${Math.max(...exact).toFixed(0)} ms`);
+  await page.evaluate(() => document.activeElement.blur());
+  for (let i = 0; i < edits; i++) await page.keyboard.press("Control+z");
+  await until(page, (keys) => JSON.stringify(window.studio.script().script.channels.AU12.keys) === keys, JSON.stringify(script.channels.AU12.keys));
+});
+
 await test("it plays to the end, and seeks", async () => {
   await page.keyboard.press("Space");
   await until(page, () => window.studio.state().t_s > 0.49 && !window.studio.state().playing);

@@ -96,7 +96,8 @@ await test("opens with the adult and a sample, and plays it", async () => {
 await test("gives the poses of risorius view", async () => {
   await openOwn("mine.json", JSON.stringify(script));
   await until(page, () => document.title.startsWith("mine.json"));
-  // A step ends when an iteration moves the nodes by less than 0.01 mm RMS: two builds that round differently may end one apart.
+  // A step ends when an iteration moves the nodes by less than 0.01 mm RMS: two builds that round differently may end one apart. In
+  // the program alone, noise of 1 nm in the mesh moves nodes by up to 0.41 mm in this script, and by 0.01 mm where steps converge.
   let worst = 0;
   let worstMean = 0;
   for (const t_s of [0, 0.1, 0.2, 0.3, 0.4, 0.5]) {

@@ -9,6 +9,7 @@
 #include "risorius/core/json_cursor.h"
 #include "risorius/geom/surface_topology.h"
 #include "risorius/geom/weld.h"
+#include "risorius/landmarks/detail/by_definition.h"
 #include "risorius/rig/head.h"
 #include "risorius/rig/landmark_check.h"
 
@@ -126,6 +127,8 @@ std::map<std::string, JudgedLandmark> judged_landmarks(
 
     std::map<std::string, Vec3> positions;
     for (const auto& [id, landmark] : out) positions[id] = landmark.at;
+    for (const auto& [id, p] : found_in_front(head, positions))
+        out.at(id).at = positions.at(id) = p;
     const rig::HeadFrame frame = rig::find_head_frame(positions, atlas, 1.0);
     find_by_definition(head, frame, out);
     doubt_edges(head, atlas, out);
