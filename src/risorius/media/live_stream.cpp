@@ -11,7 +11,11 @@
 
 namespace risorius::media {
 
-using namespace detail;
+using detail::Coding;
+using detail::ffmpeg_text;
+using detail::PacketPtr;
+using detail::PictureCoder;
+using detail::silence_ffmpeg;
 
 struct LiveStream::Impl {
     std::string name;
