@@ -2,6 +2,7 @@
 // risorius speak from labels and utterances to files of text, as users call it. No voice is needed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,8 @@
 #include "paths.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/sha256.h"
+#include "risorius/media/detail/sound.h"
+#include "risorius/media/video_reader.h"
 #include "shell.h"
 #include "temporary_folder.h"
 
@@ -134,6 +137,49 @@ TEST_F(Speak, AScriptAndItsUtteranceAppearTogetherAndAreReadBefore) {
     // The same again, in place of the former ones
     EXPECT_EQ(speak("--labels anna.ctm --fps 5 --draft --passes 0 --size 64x64 -o out/a.mp4").code,
               0);
+}
+
+// Times of frames: those of a script that begins 0.05 s before the face moves, in a film of 10 frames a second.
+TEST_F(Speak, AFilmOnStandardOutputHasTheFramesAndTheSoundOfTheSpeech) {
+    const std::filesystem::path samples =
+        std::filesystem::path(RISORIUS_SOURCE_DIR) / "samples/talk";
+    const std::string options = " -o - --draft --size 64x64 --fps 10 --quiet";
+    const auto [code, said] =
+        speak((samples / "english.utterance.json").string() + options + " 2>&1 > film.mkv; true");
+    EXPECT_EQ(said, "");
+    EXPECT_EQ(folder_.listing(), std::set<std::string>{"film.mkv"});
+    const media::Sound spoken = media::read_sound(samples / "english.wav"),
+                       film = media::read_sound(folder_ / "film.mkv");
+    EXPECT_EQ(film.rate_hz, spoken.rate_hz);
+    const auto loud = [](const std::vector<float>& sound) {
+        return std::find_if(sound.begin(), sound.end(), [](float x) { return x != 0; }) -
+               sound.begin();
+    };
+    const auto lead = static_cast<std::size_t>(loud(film.samples) - loud(spoken.samples));
+    EXPECT_NEAR(static_cast<double>(lead) / film.rate_hz, 0.35, 0.05);
+    ASSERT_GE(film.samples.size(), lead + spoken.samples.size());
+    EXPECT_TRUE(std::equal(spoken.samples.begin(), spoken.samples.end(),
+                           film.samples.begin() + static_cast<std::ptrdiff_t>(lead)));
+    const int frames = media::VideoReader(folder_ / "film.mkv").frames();
+    EXPECT_EQ(static_cast<std::int64_t>(film.samples.size()),
+              std::int64_t{frames} * film.rate_hz / 10);
+}
+
+TEST_F(Speak, LinesOfStandardInputFollowEachOtherInOneFilm) {
+    if (!std::filesystem::exists(RISORIUS_BINARY_DIR "/risorius-voice-espeak"))
+        GTEST_SKIP() << "built without the library espeak-ng";
+    const std::string options = " --program espeak --draft --size 64x64 --fps 5 -o - 2>notes";
+    std::vector<int> frames;
+    for (const char* text : {"ah", "oh", "ah\\n\\noh"}) {
+        const ShellResult result =
+            run_shell("cd '" + folder_.path().string() + "' && printf '" + text + "\\n' | '" +
+                      (std::filesystem::path(RISORIUS_BINARY_DIR) / "risorius").string() +
+                      "' speak -" + options + " > film.mkv");
+        EXPECT_EQ(result.code, 0) << bytes_of(folder_ / "notes");
+        frames.push_back(media::VideoReader(folder_ / "film.mkv").frames());
+    }
+    EXPECT_GT(frames[0], 3);
+    EXPECT_EQ(frames[2], frames[0] + frames[1]);
 }
 
 TEST_F(Speak, AlignRefusesWhatItCannotWriteOrHear) {

@@ -10,6 +10,7 @@
 #include "risorius/face/quality.h"
 #include "risorius/face/surfaces.h"
 #include "risorius/scene/rig_files.h"
+#include "risorius/speech/trajectory.h"
 #include "risorius/talk/detail/check_speech.h"
 #include "risorius/talk/detail/speech_drive.h"
 #include "risorius/talk/say_event.h"
@@ -162,6 +163,57 @@ TEST(CheckSpeech, AClosureThatLeaksIsPressedDeeperAndALateOneBeginsEarlier) {
     EXPECT_NEAR(changes[0].earlier_s, 2 * 0.013, 1e-9);
     const auto more = changes_for({leaks}, changes);
     EXPECT_DOUBLE_EQ(more[0].deeper_mm, 2 * (2 * 0.7 + 0.6));
+}
+
+TEST(CheckSpeech, LipsThatPartBeforeTheReleaseAreClosedForLongerAndPressAsBefore) {
+    const ClosureCheck parts{.phone = 7,
+                             .closure_s = 1,
+                             .release_s = 1.078,
+                             .max_gap_mm = 1.4,
+                             .least_gap_mm = 0.06,
+                             .contact_s = 1.008,
+                             .open_s = 1.057,
+                             .closed_until_s = 1.053};
+    const auto changes = changes_for({parts}, {});
+    ASSERT_EQ(changes.size(), 1u);
+    EXPECT_EQ(changes[0].deeper_mm, 0);
+    EXPECT_EQ(changes[0].earlier_s, 0);
+    EXPECT_NEAR(changes[0].shorter_s, -0.025, 1e-9);
+    // When that was not enough, they press deeper as well, and are never closed far into the sound that follows.
+    const auto more = changes_for({parts}, changes);
+    EXPECT_EQ(more[0].shorter_s, -0.04);
+    EXPECT_DOUBLE_EQ(more[0].deeper_mm, 2 * 1.4 + 0.6);
+    speech::ArticulationTargets targets{0, 2, {}, {}, {{7, 7, 1, 1.078}}, {}};
+    targets.windows = {{speech::Parameter::kGap, 1.01, 1.06, -1.2, 0.02, false, 7}};
+    targets.bounds = {{speech::Parameter::kGap, 1.01, 1.06, -100, -0.5, 7}};
+    speech::change_closures(changes, targets);
+    EXPECT_NEAR(targets.windows[0].to_s, 1.085, 1e-9);
+    EXPECT_NEAR(targets.bounds[0].to_s, 1.085, 1e-9);
+    EXPECT_EQ(targets.bounds[0].from_s, 1.01);
+}
+
+TEST(CheckSpeech, LipsThatOpenLateAreAskedToBeApartSoonAfterTheRelease) {
+    const ClosureCheck late{.phone = 7,
+                            .closure_s = 1,
+                            .release_s = 1.042,
+                            .max_gap_mm = 0.2,
+                            .least_gap_mm = 0,
+                            .contact_s = 1.002,
+                            .open_s = 1.091,
+                            .closed_until_s = 1.08};
+    const auto changes = changes_for({late}, {});
+    ASSERT_EQ(changes.size(), 1u);
+    EXPECT_EQ(changes[0].shorter_s, 0.015);
+    speech::ArticulationTargets targets{0, 2, {}, {}, {{7, 7, 1, 1.042}}, {}};
+    targets.windows = {{speech::Parameter::kGap, 0.3, 0.5, 0, 0.02, false, -1},
+                       {speech::Parameter::kGap, 1.01, 1.024, -1.2, 0.02, false, 7},
+                       {speech::Parameter::kGap, 1.15, 1.2, 4, 0.04, true, 8}};
+    targets.bounds = {{speech::Parameter::kGap, 1.01, 1.024, -100, -0.5, 7}};
+    speech::change_closures(changes, targets);
+    const speech::ArticulationCurves curves = speech::curves_of(targets);
+    EXPECT_LE(curves.at(speech::Parameter::kGap, 1.015), -0.4);
+    for (const double t_s : {1.055, 1.06, 1.07})
+        EXPECT_GE(curves.at(speech::Parameter::kGap, t_s), 0.9) << t_s;
 }
 
 }  // namespace

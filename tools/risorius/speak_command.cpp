@@ -10,6 +10,7 @@
 #include "risorius/animate/animate.h"
 #include "risorius/blendshapes/live_link.h"
 #include "risorius/core/data_folder.h"
+#include "risorius/core/error.h"
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
@@ -24,6 +25,7 @@
 #include "risorius/talk/voice.h"
 #include "tools/risorius/commands.h"
 #include "tools/risorius/render_options.h"
+#include "tools/risorius/speak_arguments.h"
 #include "tools/risorius/speech_files.h"
 
 namespace risorius::cli {
@@ -32,19 +34,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct SpeakArguments {
-    Common common;
-    talk::SpokenInput input;
-    animate::RenderRequest render;  ///< its `out` is that of all kinds of output
-    std::string said, size;
-    fs::path script;
-    speech::SpeechStyle style;
-    double gestures = 0.6, blinks = 1;
-    int passes = 4;
-};
-
 /// TEXT is what to say, a file of text, or an utterance.
 void read_said(SpeakArguments& arguments) {
+    if (arguments.said == kStandard) return;
     const fs::path file = arguments.said;
     if (is_file_name(arguments.said) && file.extension() == ".json")
         arguments.input.utterance = file;
@@ -125,9 +117,10 @@ talk::CheckedSpeech render_speech(SpeakArguments& arguments, talk::SpokenResult&
         if (pass >= arguments.passes) break;
         std::vector<speech::ClosureChange> changes = talk::changes_for(closures, options.adjust);
         // Closures come first: vowels are widened in the last pass, which counts only if no closure is lost.
-        const bool all_held = best.held == best.total;
+        const bool all_held = best.held == best.total,
+                   all_well = all_held && best.opened == best.total;
         const bool last =
-            pass + 1 >= arguments.passes || (pass > 0 && all_held) || same(changes, options.adjust);
+            pass + 1 >= arguments.passes || (pass > 0 && all_well) || same(changes, options.adjust);
         if (last) {
             changes = talk::widened(best.vowels.back(), all_held ? best_adjust : changes);
             if (same(changes, options.adjust)) break;
@@ -186,6 +179,9 @@ void print_report(const SpeakArguments& arguments, const speech::Utterance& utte
 void run_speak(SpeakArguments& arguments) {
     read_said(arguments);
     const fs::path out = arguments.render.out;
+    if (out == kStandard) return speak_live(arguments);
+    if (arguments.said == kStandard)
+        throw Error("speak TEXT", "a text, as standard input is read with --out - alone", "-");
     const speech::PhoneTable table = speech::PhoneTable::standard();
     talk::SpokenResult result = talk::read_spoken(arguments.input, table);
     std::optional<talk::CheckedSpeech> checked;
@@ -206,7 +202,8 @@ void add_speak(CLI::App& app) {
     auto arguments = std::make_shared<SpeakArguments>();
     talk::SpokenInput& input = arguments->input;
     command->add_option("TEXT", arguments->said,
-                        "What to say: a text, a text file, or a file of format risorius-utterance");
+                        "What to say: a text, a text file, or a file of format risorius-utterance; "
+                        "-: each line of standard input as it comes, with --out -");
     command
         ->add_option(
             "-o,--out", arguments->render.out,
@@ -216,7 +213,10 @@ void add_speak(CLI::App& app) {
             "the sound beside it; .TextGrid, .ctm, .lab, .vtt: labels; .tsv: mouth shapes of "
             "Rhubarb; .visemes.json: those of Oculus as a list and as weights over time; .csv: "
             "weights of the shapes of ARKit, as Live Link Face records them; .curves.tsv: curves "
-            "of jaw, lips and tongue")
+            "of jaw, lips and tongue; -: the talking face on standard output while it is "
+            "simulated, "
+            "as Matroska with H.264 and PCM, in quality preview, with closures of the lips "
+            "unchecked")
         ->required();
     command
         ->add_option("--voice", input.voice.language,
@@ -273,6 +273,7 @@ void add_speak(CLI::App& app) {
         "Example:\n  risorius speak \"Good morning.\" --voice en-us -o out/morning.mp4\n"
         "  risorius speak \"Good morning.\" --voice en-us -o out/morning.TextGrid\n"
         "  risorius speak \"Good morning.\" --voice en-us --audio anna.wav -o out/anna.mp4\n"
+        "  risorius speak \"Good morning.\" --voice en-us -o - | mpv -\n"
         "  risorius speak --labels anna.TextGrid --audio anna.wav -o out/anna.utterance.json");
     command->callback([arguments] { run_speak(*arguments); });
 }

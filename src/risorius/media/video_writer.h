@@ -39,6 +39,8 @@ struct VideoOptions {
     bool lossless = false;
     /// All frames are the same picture. In H.264 every frame then decodes to the same bytes as the first one.
     bool still = false;
+    /// H.264 only: every frame leaves the encoder before the next one comes in.
+    bool live = false;
     std::optional<int> bits = {};  ///< per channel of PNG frames and in .mkv, 8 or 16; default: 8
     bool alpha = false;            ///< frames may be transparent even if the first one is not
     /// The sound of the video. It is cut, or extended with silence, to the length of the video.

@@ -49,7 +49,7 @@ Json speak_script(const speech::Utterance& utterance, const SpeakScriptOptions& 
     for (const speech::ClosureChange& change : options.adjust) {
         Json one = json_object({{"phone", change.phone}});
         const auto put = [&](const char* key, double value) {
-            if (value > 0) one[key] = std::round(value * 1e4) / 1e4;
+            if (value != 0) one[key] = std::round(value * 1e4) / 1e4;
         };
         put("deeper_mm", change.deeper_mm);
         put("earlier_s", change.earlier_s);

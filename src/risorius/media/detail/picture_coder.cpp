@@ -153,6 +153,7 @@ void PictureCoder::open_h264(const VideoOptions& options) {
     codec_->max_b_frames = 0;
     codec_->flags |= AV_CODEC_FLAG_CLOSED_GOP;
     set("preset", options.preset.value_or("faster"));
+    if (options.live) set("tune", "zerolatency");
     const std::string refinement = options.preset || options.lossless ? "" : kUsualRefinement;
     const int crf = options.crf.value_or(kUsualH264Crf);
     const int later = options.still ? std::min(kLaterCrf, kMaxH264Crf - crf) : 0;

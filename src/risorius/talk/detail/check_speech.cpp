@@ -21,7 +21,7 @@ constexpr double kOpenGap_mm = 0.5;
 // How far around a closure its contact and its opening are looked for
 constexpr double kBefore_s = 0.15, kAfter_s = 0.2;
 // Lateness that is left as it is, and the most that one pass changes
-constexpr double kLate_s = 0.010, kMaxEarlier_s = 0.03, kOpensLate_s = 0.017;
+constexpr double kLate_s = 0.010, kTooEarly_s = 0.025, kMaxEarlier_s = 0.03, kOpensLate_s = 0.017;
 constexpr double kDeeper = 2, kDeeperAtLeast_mm = 0.6, kDeepest_mm = 8;
 // The lips gain less than half of the time by which they begin earlier.
 constexpr double kEarlier = 2;
@@ -30,7 +30,7 @@ constexpr double kStuck_s = 0.05, kLessDeep = 0.6;
 constexpr double kUsuallyDeeper_mm = 2;
 // Vowels that open too little: what is left as it is, and the most that is asked for beyond the plan
 constexpr double kMissing_mm = 1, kWider = 0.8, kWidest_mm = 6;
-constexpr double kEarliest_s = 0.06, kShortest_s = 0.03;
+constexpr double kEarliest_s = 0.06, kShortest_s = 0.03, kLongest_s = 0.04;
 
 std::string cell(double value, int decimals) {
     if (std::isnan(value)) return "\t";
@@ -84,7 +84,7 @@ std::vector<ClosureCheck> check_closures(const MouthTrack& track, const PlacedUt
         }
         // The contact that is there in the middle of the closure, back to where it began and on to its end
         const double middle_s = (check.closure_s + check.release_s) / 2;
-        check.contact_s = check.open_s = kNone;
+        check.contact_s = check.open_s = check.closed_until_s = kNone;
         if (check.reached()) {
             double t = middle_s;
             while (t > check.closure_s - kBefore_s && track.at(t, &Mouth::gap) < kContactGap_mm)
@@ -92,6 +92,10 @@ std::vector<ClosureCheck> check_closures(const MouthTrack& track, const PlacedUt
             while (t < check.release_s && track.at(t, &Mouth::gap) >= kContactGap_mm) t += 0.001;
             check.contact_s = t;
             t = std::max(middle_s, t);
+            check.closed_until_s = t;
+            while (check.closed_until_s < check.release_s + kAfter_s &&
+                   track.at(check.closed_until_s, &Mouth::gap) < kContactGap_mm)
+                check.closed_until_s += 0.001;
             while (t < check.release_s + kAfter_s && track.at(t, &Mouth::gap) <= kOpenGap_mm)
                 t += 0.001;
             if (t < check.release_s + kAfter_s) check.open_s = t;
@@ -148,38 +152,56 @@ std::vector<ClosureChange> usual_changes(const speech::Utterance& utterance,
     return out;
 }
 
+namespace {
+
+/// What one closure needs beyond the changes that are in force.
+ClosureChange change_for(const ClosureCheck& check, const ClosureChange& before) {
+    ClosureChange change;
+    change.phone = check.phone;
+    const double late_s = std::isnan(check.contact_s) ? kMaxEarlier_s / 2
+                                                      : check.contact_s - check.closure_s,
+                 early_s = check.release_s - check.closed_until_s;
+    const bool too_early = early_s > kHeldTo_s;
+    // Lips that meet in time and press well, but part too early, are closed for longer. Only when that was not enough, they press harder.
+    const bool leaks = !check.held() && !(too_early && late_s <= kLate_s && before.shorter_s >= 0);
+    if (leaks) change.deeper_mm = kDeeper * check.max_gap_mm + kDeeperAtLeast_mm;
+    if (leaks || late_s > kLate_s) {
+        const double over_s = std::isnan(check.contact_s) ? late_s : late_s - kLate_s / 2;
+        change.earlier_s = std::clamp((leaks ? kEarlier : 1) * over_s, 0.0, kMaxEarlier_s);
+    } else if (late_s < -kTooEarly_s) {
+        // What was too much of an earlier change; it may have shut the vowel before.
+        change.earlier_s = std::max(late_s + kTooEarly_s, -kMaxEarlier_s / 2);
+    }
+    if (too_early)
+        change.shorter_s = -std::min(early_s, kMaxEarlier_s);
+    else if (check.held() && check.open_s > check.release_s + kOpensLate_s)
+        change.shorter_s =
+            std::min(check.open_s - check.release_s - kOpensLate_s / 2, kMaxEarlier_s / 2);
+    return change;
+}
+
+}  // namespace
+
 std::vector<ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
                                        std::vector<ClosureChange> before) {
     for (const ClosureCheck& check : checks) {
-        ClosureChange change;
-        change.phone = check.phone;
-        if (!check.held()) {
-            change.deeper_mm = kDeeper * check.max_gap_mm + kDeeperAtLeast_mm;
-            const double late_s = std::isnan(check.contact_s)
-                                      ? kMaxEarlier_s / 2
-                                      : check.contact_s - check.closure_s - kLate_s / 2;
-            change.earlier_s = std::clamp(kEarlier * late_s, 0.0, kMaxEarlier_s);
-        } else if (check.contact_s > check.closure_s + kLate_s) {
-            change.earlier_s =
-                std::min(check.contact_s - check.closure_s - kLate_s / 2, kMaxEarlier_s);
-        }
-        if (!std::isnan(check.open_s) && check.held() &&
-            check.open_s > check.release_s + kOpensLate_s)
-            change.shorter_s =
-                std::min(check.open_s - check.release_s - kOpensLate_s / 2, kMaxEarlier_s / 2);
+        const auto known = std::find_if(before.begin(), before.end(), [&](const ClosureChange& c) {
+            return c.phone == check.phone;
+        });
+        const ClosureChange change =
+            change_for(check, known != before.end() ? *known : ClosureChange{});
         const bool stuck = check.held() && !(check.open_s < check.release_s + kStuck_s);
         if (change.deeper_mm == 0 && change.earlier_s == 0 && change.shorter_s == 0 && !stuck)
             continue;
-        const auto known = std::find_if(before.begin(), before.end(), [&](const ClosureChange& c) {
-            return c.phone == change.phone;
-        });
         ClosureChange& to =
             known != before.end() ? *known : before.emplace_back(ClosureChange{change.phone});
         to.deeper_mm = std::min(kDeepest_mm, to.deeper_mm + change.deeper_mm);
-        to.earlier_s = std::min(kEarliest_s, to.earlier_s + change.earlier_s);
-        to.shorter_s = std::min(kShortest_s, to.shorter_s + change.shorter_s);
-        // Lips that are pressed too hard do not part in time.
-        if (stuck) to.deeper_mm *= kLessDeep;
+        to.earlier_s = std::clamp(to.earlier_s + change.earlier_s, 0.0, kEarliest_s);
+        to.shorter_s = std::clamp(to.shorter_s + change.shorter_s, -kLongest_s, kShortest_s);
+        if (!stuck) continue;
+        // Lips that are pressed too hard, or held on to the next closure, do not part in time.
+        to.deeper_mm *= kLessDeep;
+        to.shorter_s = std::max(to.shorter_s, 0.0);
     }
     return before;
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,8 @@ struct ClosureCheck {
     double max_gap_mm = 0;                ///< from the closure + 10 ms to the release - 5 ms
     double least_gap_mm = 0;              ///< of the whole closure
     double contact_s = 0, open_s = 0;     ///< NaN: none
+    /// When the contact ends; `open_s` is a little later, when the lips are seen to be apart. NaN: unknown
+    double closed_until_s = std::numeric_limits<double>::quiet_NaN();
     bool reached() const { return least_gap_mm < kContactGap_mm; }
     bool held() const { return max_gap_mm < kContactGap_mm; }
 };
@@ -62,8 +65,8 @@ std::vector<speech::ClosureChange> widened(const std::vector<VowelCheck>& checks
 std::vector<speech::ClosureChange> usual_changes(const speech::Utterance& utterance,
                                                  const speech::PhoneTable& table);
 
-/// What would mend the closures that leak, come late or open late: deeper by twice the gap and 0.6 mm, earlier by twice what is
-/// missing. Added to the changes that were in force.
+/// What would mend the closures that leak, come late, or open late or early: deeper by twice the gap and 0.6 mm, earlier by twice
+/// what is missing, shorter or longer by the error of the release. Added to the changes that were in force.
 std::vector<speech::ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
                                                std::vector<speech::ClosureChange> before);
 
