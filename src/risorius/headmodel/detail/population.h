@@ -28,8 +28,8 @@ struct PersonChoice {
 
 /// Draws a person; the same seed gives the same person on every machine. Seeds up to 9600 stand in rows of 48 (1 to 48, 49 to 96, ...): each
 /// draws 96 forms, each with a tone of skin, and takes the one that is seen to differ most from the 23 before it in its row. What is chosen
-/// replaces what the seed would give and changes nothing else of the form, but for what is usual in a sex. What makes people of rows distinct is exaggerated, and so is
-/// what is usual in their sex. Shapes are limited to magnitude 2.5.
+/// replaces what the seed would give and changes nothing else of the form, but for what is usual in a sex. What makes people of rows
+/// distinct is exaggerated, and so is what is usual in their sex. Shapes are limited to magnitude 2.5.
 Identity random_person(unsigned seed, const PersonChoice& choice, const DesignTables& tables);
 
 }  // namespace risorius::headmodel
