@@ -14,7 +14,8 @@ namespace {
 constexpr double kHairMapPerMetre = 2.5;  ///< of the paint map, for a head of 0.1 m radius
 constexpr double kStep_m = 0.004;         ///< along a guide before it is resampled
 constexpr double kAboveSkin_m = 0.0008;
-constexpr double kNape_m = -0.055;  ///< the lowest hair, from the height of the tragia
+constexpr double kTurnedIn_m = 0.045;  ///< above the tips of hanging hair
+constexpr double kNape_m = -0.055;     ///< the lowest hair, from the height of the tragia
 
 double ramp(double from, double to, double x) {
     const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
@@ -151,13 +152,16 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
     const Vec3 centre = head_.centre();
     double length = length_m(d) * (0.85 + 0.3 * random.next());
     if (guide.edge && style_.flow == HairFlow::kRadial) length *= 0.6;
+    // Short hair is cut shorter towards the nape: longer locks would stand beside the neck.
+    if (style_.flow == HairFlow::kParting && !style_.hangs)
+        length *= 0.3 + 0.7 * ramp(kNape_m, 0.0, head_.radius_m(d, false) * d.y());
     length = std::min(length, longest_m);
     const double turn = 2 * std::numbers::pi * random.next(), stray = random.next() - 0.5,
                  cut = tips_m_ + 0.016 * (random.next() - 0.5);
     const double cap = cap_m(d), layer = 1e-3 * style_.layers_mm * guide.layer,
                  loft = 1e-3 * style_.loft_mm;
     const bool tuft = style_.flow == HairFlow::kRadial, fringe = in_fringe(d);
-    const double fringe_cut = fringe ? fringe_m_ + 0.010 * (random.next() - 0.5) : 0;
+    const double fringe_cut = fringe ? fringe_m_ + 0.005 * (random.next() - 0.5) : 0;
     const auto way_at = [&](const Vec3& at) -> Vec3 {
         if (!fringe) return flow(at);
         const Vec3 out = (at - head_.centre()).normalized();
@@ -165,6 +169,8 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
     };
     if (fringe) {
         guide.width = 0.75;
+        guide.fringe = true;
+        guide.fray = 0.4;
         guide.segments = std::min(style_.segments, 10);
     }
     Vec3 p = centre + (skin_m(d) + (tuft ? 0.95 : 0.75) * cap + 0.0003) * d;
@@ -186,10 +192,17 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
         if (style_.flow == HairFlow::kKnot && (knot_ - p).norm() < 0.012) break;
         if (style_.hangs && p.y() < cut) break;
         if (fringe && p.y() < fringe_cut) break;
-        if (!style_.over_ears && head_.is_ear(out) && passed > 0.006) break;
+        if (!style_.over_ears && head_.is_ear(out) && passed > 0.006) {
+            guide.fray = 0.2;
+            break;
+        }
         if (!tuft) {
             const bool free = p.y() < loose_m && style_.hangs;
-            const Vec3 onward = free ? Vec3(0.12 * v.x(), -1, 0.12 * v.z()) : way_at(p);
+            // Hanging hair turns in towards the neck above its tips.
+            const double in = 1.1 * ramp(cut + kTurnedIn_m, cut, p.y());
+            const Vec3 onward = free ? Vec3((0.12 - in) * v.x() - in * out.x(), -1,
+                                            (0.12 - in) * v.z() - in * out.z())
+                                     : way_at(p);
             v = (0.80 * v + 0.20 * onward + style_.fall * kStep_m / 0.03 * Vec3(0, -0.22, 0))
                     .normalized();
         }
@@ -197,9 +210,12 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
         // Off the head, and not far from the hull
         const Vec3 now = (p - centre).normalized();
         const double rise = tuft ? 1 : ramp(0, 0.022, passed + kStep_m);
+        // On top of the head the locks lie close, or single ones would stand out against the background.
+        const double lies = tuft ? 1 : 1 - 0.7 * ramp(0.5, 0.85, now.y());
         const double skin = skin_m(now),
-                     least = skin + kAboveSkin_m +
-                             (std::max(cap_m(now) - 1e-3 * style_.sunk_mm, 0.0) + layer) * rise,
+                     least =
+                         skin + kAboveSkin_m +
+                         (std::max(cap_m(now) - 1e-3 * style_.sunk_mm, 0.0) + lies * layer) * rise,
                      most = least + loft + (p.y() < loose_m ? 0.05 : 0.0);
         const double r = (p - centre).norm();
         const double kept = skin > 0 ? std::clamp(r, least, most) : r;

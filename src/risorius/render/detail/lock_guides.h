@@ -24,6 +24,8 @@ struct LockGuide {
     bool single = false;  ///< one of the single hairs at the hairline
     bool hangs = false;   ///< some of it is far from the head
     bool tail = false;    ///< hangs from the knot
+    double fray = 1;      ///< factor of the length of the strands in which it ends
+    bool fringe = false;  ///< of the front, over the forehead
 };
 
 /// The head of a scene with a style: where its hair grows, and the hull that it lies on.

@@ -105,9 +105,9 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
         if (i > 0) along_m += (guide.points[i] - guide.points[i - 1]).norm();
         const double width = half * taper(s, guide.edge, style.tip);
         // Deep between the roots it is dark.
-        const double root_lit = guide.edge ? 0.85 : 0.68;
-        const double lit =
-            (root_lit + (1 - root_lit) * soft_step(0, 0.4, s)) * (0.60 + 0.40 * guide.layer);
+        const double root_lit = guide.edge || guide.fringe ? 0.85 : 0.68;
+        const double lit = (root_lit + (1 - root_lit) * soft_step(0, 0.4, s)) *
+                           (tuft ? 0.60 + 0.40 * guide.layer : 0.76 + 0.24 * guide.layer);
         for (std::size_t column = 0; column < columns; ++column) {
             const double at =
                 2.0 * static_cast<double>(column) / static_cast<double>(columns - 1) - 1;
@@ -121,7 +121,7 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
                          : (out + kRound * at * side).normalized();
             v.strand = {chance.across + at * width / kStrandsAcross_m, along_m / kStrandsAlong_m};
             v.lit = lit;
-            v.tone = (0.85 + 0.30 * chance.tone) * (0.85 + 0.25 * s);
+            v.tone = (0.92 + 0.16 * chance.tone) * (0.85 + 0.25 * s);
             v.grey = guide.grey;
             lock.push_back(v);
         }
@@ -150,7 +150,7 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
     const bool knotted = style.flow == HairFlow::kKnot && !guide.tail;
     if (style.fray_mm > 0 && !guide.single && !knotted) {
         add_ends({hair.vertices.end() - static_cast<std::ptrdiff_t>(columns), hair.vertices.end()},
-                 1e-3 * style.fray_mm, random, hair);
+                 1e-3 * style.fray_mm * guide.fray, random, hair);
         piece.vertices = hair.vertices.size() - piece.first_vertex;
     }
     piece.indices = hair.triangles.size() - piece.first_index;

@@ -145,6 +145,22 @@ void plan_beard(const Marks& marks, const Appearance& appearance, SkinPlan& plan
 }
 
 /// Hair grows outside a closed curve on the map: over the forehead through the landmarks, in front of the ears, to the nape.
+/// Takes the corners out of the front of a hairline, which would show as a notch in the middle. Sideburns and nape stay as they are.
+void round_front(std::array<double, SkinPlan::kHairlineSteps>& hairline) {
+    constexpr int kPasses = 2, kFront = 6;  // steps to each side of the middle
+    for (int pass = 0; pass < kPasses; ++pass) {
+        const auto before = hairline;
+        const auto at = [&](int i) {
+            return before[static_cast<std::size_t>((i + SkinPlan::kHairlineSteps) %
+                                                   SkinPlan::kHairlineSteps)];
+        };
+        for (int i = -kFront; i <= kFront; ++i)
+            hairline[static_cast<std::size_t>((i + SkinPlan::kHairlineSteps) %
+                                              SkinPlan::kHairlineSteps)] =
+                0.25 * at(i - 1) + 0.5 * at(i) + 0.25 * at(i + 1);
+    }
+}
+
 void plan_hairline(const Marks& marks, const Vec3& centre, const Appearance& appearance,
                    SkinPlan& plan) {
     plan.hairline.fill(2.0);
@@ -195,6 +211,7 @@ void plan_hairline(const Marks& marks, const Vec3& centre, const Appearance& app
         const double t = b.angle > a.angle ? (angle - a.angle) / (b.angle - a.angle) : 0.0;
         plan.hairline[static_cast<std::size_t>(i)] = a.radius + t * (b.radius - a.radius);
     }
+    if (lock_style(appearance.hair_style)) round_front(plan.hairline);
 }
 
 }  // namespace
