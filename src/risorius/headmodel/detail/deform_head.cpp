@@ -8,6 +8,7 @@
 #include "risorius/core/error.h"
 #include "risorius/headmodel/detail/eyes.h"
 #include "risorius/headmodel/detail/population.h"
+#include "risorius/headmodel/detail/skin_steps.h"
 
 namespace risorius::headmodel {
 namespace {
@@ -200,6 +201,7 @@ HeadModel deform_head(const HeadModel& average, const DesignTables& tables,
         q.x() = middle && !uneven ? 0 : side * q.x();
         mesh.positions.row(v) = q.transpose();
     }
+    if (identity.model == Model::kPopulation) ease_steps(average.mesh, mesh);
     return model;
 }
 

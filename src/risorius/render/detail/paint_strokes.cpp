@@ -10,6 +10,7 @@
 #include "risorius/render/detail/gl_context.h"
 #include "risorius/render/detail/shader_paint.h"
 #include "risorius/render/detail/skin_paint.h"
+#include "risorius/render/detail/strand_texture.h"
 
 namespace risorius::render {
 namespace {
@@ -45,17 +46,24 @@ class StrokePad {
     std::vector<StrokeVertex> vertices_;
 };
 
+/// Each hair is white or dark, linear. `draw`: any random number of the hair
+Vec3 tone_of_hair(const Appearance& appearance, double draw, double whites) {
+    const double fate = 37 * draw - std::floor(37 * draw);
+    return linear_from_srgb(fate < whites ? kWhiteHair : dark_hair_tone(appearance));
+}
+
 /// The ground of a brow: shadows of its hairs and the finest hairs.
 void brow(const Scene& scene, const std::vector<Vec3>& line, const Vec3& centre,
           RandomSequence& random, StrokePad& pad) {
     if (line.size() < 3) return;
     const int hairs = brow_hairs(scene.appearance, 420);
-    const double width = scene.appearance.brow_width;
-    const Vec3 hair = linear_from_srgb(hair_tone_at(scene.appearance));
+    const double width = scene.appearance.brow_width,
+                 whites = white_share_of_brows(scene.appearance);
     for (int i = 0; i < hairs; ++i) {
         const BrowHair next = next_brow_hair(line, width, centre, random);
         const double shade = 0.7 + 0.7 * random.next(), density = 0.22 + 0.16 * random.next();
         const Vec2 tip = next.root + kMapPerMetre * next.length_m * next.step.normalized();
+        const Vec3 hair = tone_of_hair(scene.appearance, shade, whites);
         pad.add(next.root, tip, kMapPerMetre * 0.00022, hair * shade, density * next.density);
     }
 }
@@ -119,8 +127,7 @@ void beard(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
     if (scene.appearance.beard <= 0 || plan.beard.empty()) return;
     constexpr double kPerSquareMetre = 1.1e6;  // on the chin of a man
     constexpr double kTrimmed_m = 0.0026;      // what the hairs of a trimmed beard are longer
-    const double longer_m = plan.trimmed ? kTrimmed_m : 0.0;
-    const Vec3 hair = linear_from_srgb(hair_tone_at(scene.appearance));
+    const double longer_m = plan.trimmed ? kTrimmed_m : 0.0, whites = white_share(scene.appearance);
     const auto at = [&](std::size_t i) -> Vec3 {
         return scene.rest.row(static_cast<Eigen::Index>(skin[i])).transpose();
     };
@@ -145,7 +152,8 @@ void beard(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
                     (0.0004 + (0.0022 * scene.appearance.beard + longer_m) * (0.5 + 0.5 * length)) *
                         down,
                 centre);
-            pad.add(from, to, kMapPerMetre * 0.00011, hair * (0.7 + 0.6 * shade),
+            const Vec3 tone = tone_of_hair(scene.appearance, turn, whites) * (0.7 + 0.6 * shade);
+            pad.add(from, to, kMapPerMetre * 0.00011, tone,
                     (0.25 + 0.55 * scene.appearance.beard) * density);
         }
     }

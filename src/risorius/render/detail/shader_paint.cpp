@@ -35,7 +35,7 @@ in vec2 place;
 in vec4 zone_sum;
 out vec4 colour;
 uniform vec3 skin_tone, lip_tone, hair_tone;   // linear
-uniform float scalp_hair, seed, age, mottling, beard, trimmed;
+uniform float scalp_hair, seed, age, mottling, beard, white_beard, trimmed;
 uniform float ring;             // the crown is bald above it, m
 uniform vec4 beard_place[16];   // m, 1 / (2 spread^2)
 uniform int beard_places;
@@ -109,14 +109,15 @@ void main() {
     if (ring < 100.0) matte = hair;
     oil *= 1.0 - (0.55 * matte + 0.43 * hair) * min(1.0, 1.7 * scalp_hair);
 
-    // Hair that is cut at the skin still darkens it.
+    // Hair that is cut at the skin still darkens it, white hair hardly.
     float shadow = 0.0;
     for (int i = 0; i < beard_places; ++i) {
         vec3 d = rest - beard_place[i].xyz;
         shadow += exp(-dot(d, d) * beard_place[i].w);
     }
     shadow = beard * smoothstep(0.25, 0.85, shadow + 0.25 * (noise(p * 0.5 + 11.0) - 0.5));
-    albedo = mix(albedo, mix(albedo * vec3(0.62, 0.66, 0.72), hair_tone, 0.35 + 0.35 * trimmed), (0.55 + 0.25 * trimmed) * shadow);
+    vec3 roots = albedo * mix(vec3(0.62, 0.66, 0.72), vec3(0.92, 0.94, 0.97), white_beard);
+    albedo = mix(albedo, mix(roots, hair_tone, (0.35 + 0.35 * trimmed) * (1.0 - 0.6 * white_beard)), (0.55 + 0.25 * trimmed) * shadow);
     oil *= 1.0 - 0.4 * shadow;
 
     bool near_lips = lip_points > 0 && all(greaterThan(rest.xy, lip_box.xy)) && all(lessThan(rest.xy, lip_box.zw)) && rest.z > lip_back;

@@ -257,13 +257,17 @@ double white_share(const Appearance& appearance) {
     return appearance.grey_hair.value_or(0.85 * std::clamp(1.6 * appearance.age - 0.5, 0.0, 1.0));
 }
 
-Vec3 hair_tone_at(const Appearance& appearance) {
+Vec3 dark_hair_tone(const Appearance& appearance) {
     // Brows and beards of blond people are darker and less yellow than their hair.
     const Vec3& long_hair = appearance.hair_tone;
     const double light = std::clamp((long_hair.x() - 0.40) / 0.15, 0.0, 1.0),
                  yellow = std::clamp((long_hair.x() - long_hair.z()) / 0.30, 0.0, 1.0);
-    const Vec3 darker = long_hair + 0.8 * light * yellow * (Vec3(0.38, 0.28, 0.20) - long_hair),
-               tone = (complexion_of(appearance).brows * darker).cwiseMin(1.0);
+    const Vec3 darker = long_hair + 0.8 * light * yellow * (Vec3(0.38, 0.28, 0.20) - long_hair);
+    return (complexion_of(appearance).brows * darker).cwiseMin(1.0);
+}
+
+Vec3 hair_tone_at(const Appearance& appearance) {
+    const Vec3 tone = dark_hair_tone(appearance);
     return tone + white_share(appearance) * (Vec3(0.60, 0.555, 0.50) - tone);
 }
 

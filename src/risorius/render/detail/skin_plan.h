@@ -54,9 +54,15 @@ double beard_density(const SkinPlan& plan, const Vec3& rest);
 
 /// Share of white hairs: what the appearance says, or else what comes with its age.
 double white_share(const Appearance& appearance);
+/// Brows turn grey later than the hair of the head.
+inline double white_share_of_brows(const Appearance& appearance) {
+    return 0.75 * white_share(appearance);
+}
 
 /// Tone of short hair (brows, beard, stubble) with its white hairs.
 Vec3 hair_tone_at(const Appearance& appearance);
+/// The same without white hairs.
+Vec3 dark_hair_tone(const Appearance& appearance);
 
 /// Tone of the lips with what the complexion adds, linear.
 Vec3 lip_tone_at(const Appearance& appearance);

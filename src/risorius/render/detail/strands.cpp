@@ -10,6 +10,7 @@
 #include "risorius/render/detail/complexion.h"
 #include "risorius/render/detail/paint_strokes.h"
 #include "risorius/render/detail/skin_paint.h"
+#include "risorius/render/detail/strand_texture.h"
 
 namespace risorius::render {
 namespace {
@@ -235,6 +236,11 @@ Mat3 lid_frame(int eye, const Vec3& root, const Vec3& eye_centre, const Vec3& in
 std::vector<Strand> plan_brows(const Scene& scene, const SkinPlan& plan, const Vec3& paint_centre,
                                const std::vector<unsigned>& skin) {
     const int hairs = brow_hairs(scene.appearance, 430);
+    // Each hair of a grey brow is white or dark; as factors of the tone that both have together
+    const double whites = white_share_of_brows(scene.appearance);
+    const auto light = [](const Vec3& srgb) { return linear_from_srgb(srgb).mean(); };
+    const double mean = light(hair_tone_at(scene.appearance)), white = light(kWhiteHair) / mean,
+                 dark = light(dark_hair_tone(scene.appearance)) / mean;
     std::vector<Strand> strands;
     for (std::size_t side = 0; side < 2; ++side) {
         const std::vector<Vec3>& line = plan.brows[side];
@@ -251,7 +257,8 @@ std::vector<Strand> plan_brows(const Scene& scene, const SkinPlan& plan, const V
             Strand strand;
             strand.root = *root;
             strand.width_m = (0.000085 + 0.00003 * random.next()) * (0.45 + 0.55 * hair.density);
-            strand.shade = shade;
+            const double fate = 37 * shade - std::floor(37 * shade);
+            strand.shade = shade * (fate < whites ? white : dark);
             const Mat3 frame = skin_frame(*root, scene.rest);
             Vec3 along = (ahead->on(scene.rest) - root->on(scene.rest)).normalized();
             Vec3 out = frame.col(2);
