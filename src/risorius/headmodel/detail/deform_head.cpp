@@ -167,14 +167,8 @@ class Warp {
     Vec3 eye_;
 };
 
-}  // namespace
-
-HeadModel deform_head(const HeadModel& average, const DesignTables& tables,
-                      const Identity& identity) {
-    HeadModel model = average;
-    geom::PolygonMesh& mesh = model.mesh;
-    const std::vector<Force> forces = forces_of(tables, identity);
-    if (forces.empty()) return model;
+/// Moves `mesh`, which has the form of the average head.
+void move_by(const std::vector<Force>& forces, geom::PolygonMesh& mesh) {
     const Warp left(forces, 1), right(forces, -1);
     const bool uneven =
         std::any_of(forces.begin(), forces.end(), [](const Force& f) { return leans(f.handle); });
@@ -201,7 +195,33 @@ HeadModel deform_head(const HeadModel& average, const DesignTables& tables,
         q.x() = middle && !uneven ? 0 : side * q.x();
         mesh.positions.row(v) = q.transpose();
     }
-    if (identity.model == Model::kPopulation) ease_steps(average.mesh, mesh);
+}
+
+/// What is usual at a sex and an age, without what is a person's own
+std::vector<Force> usual_of(const std::vector<Force>& forces) {
+    std::vector<Force> usual;
+    for (const Force& force : forces) {
+        const std::string& parameter = force.handle.parameter;
+        if (parameter == "sex" || parameter == "age" || parameter == kFoldsOfAge)
+            usual.push_back(force);
+    }
+    return usual;
+}
+
+}  // namespace
+
+HeadModel deform_head(const HeadModel& average, const DesignTables& tables,
+                      const Identity& identity) {
+    HeadModel model = average;
+    const std::vector<Force> forces = forces_of(tables, identity);
+    if (forces.empty()) return model;
+    move_by(forces, model.mesh);
+    if (identity.model == Model::kPopulation) {
+        // Folds and jowls of the years are steps on purpose.
+        geom::PolygonMesh usual = average.mesh;
+        move_by(usual_of(forces), usual);
+        ease_steps(usual, model.mesh);
+    }
     return model;
 }
 

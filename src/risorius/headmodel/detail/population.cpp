@@ -220,7 +220,9 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
     person.hairdo.parting = to_hundredths(4 * parting - 2);
     const double fringe = draw.even() * (man ? 1.4 : 1);
     const std::string& style = person.hairdo.style;
-    if (fringe < 0.5 && (style == "bob" || style == "short_parted"))
+    // A fringe of curls is rare.
+    if (fringe < 0.5 && person.hairdo.lock_wave < 0.5 &&
+        (style == "bob" || style == "short_parted"))
         person.hairdo.fringe = to_hundredths(0.4 + 1.2 * fringe);
     // Of men who go bald, one in five shaves his head, and one in five keeps a thin crop. Estimates.
     const double bald = draw.even();
@@ -272,8 +274,16 @@ struct FormDraw {
     unsigned which;
 };
 
+/// Whether what is a person's own makes a man look like a woman, or a woman like a man
+bool against_sex(const Form& form, double sex, const DesignTables& tables) {
+    double along = 0;
+    for (std::size_t k = 0; k < form.size(); ++k)
+        along += form[k] * tables.population[k].sex * tables.population[k].seen;
+    return along * sex < 0;
+}
+
 /// Of some forms that a seed draws, each with a tone of skin, the one that is seen to differ most from the 23 before it in its row. Seeds
-/// that a program draws at random are in no row.
+/// that a program draws at random are in no row. Forms that speak against the sex of the person are left out.
 FormDraw form_in_row(unsigned seed, const DesignTables& tables) {
     constexpr unsigned kRow = 48, kBefore = 23, kCandidates = 96;
     if (!in_row(seed)) {
@@ -293,6 +303,7 @@ FormDraw form_in_row(unsigned seed, const DesignTables& tables) {
         for (unsigned c = 0; c < (looks.empty() ? 1 : kCandidates); ++c) {
             Draw draw(member + c * kFormSequence);
             Form form = exaggerated(drawn_form(draw, tables), tables);
+            if (c > 0 && against_sex(form, person.sex, tables)) continue;
             draw_skin(member, c, ancestry, person);
             Form look = look_of(person, usual, form, tables);
             double nearest = std::numeric_limits<double>::infinity();

@@ -72,16 +72,16 @@ SkinGraph graph_of_skin(const geom::PolygonMesh& mesh) {
 }
 
 /// V: how far the displacement of each vertex is spread, mm.
-std::vector<double> widths(const geom::PolygonMesh& average, const SkinGraph& graph,
+std::vector<double> widths(const geom::PolygonMesh& usual, const SkinGraph& graph,
                            const Points& displacement) {
     constexpr int kRings = 4;  // around a step that are spread with it
     constexpr double kKept = 0.8;
     const std::size_t count = graph.area.size();
     std::vector<double> free(count), steep(count, 0.0);
     for (std::size_t v = 0; v < count; ++v)
-        free[v] = freedom(average.positions.row(static_cast<Eigen::Index>(v)).transpose());
+        free[v] = freedom(usual.positions.row(static_cast<Eigen::Index>(v)).transpose());
     for (const auto& [a, b] : graph.edges) {
-        const double length = (average.positions.row(a) - average.positions.row(b)).norm(),
+        const double length = (usual.positions.row(a) - usual.positions.row(b)).norm(),
                      change = (displacement.row(a) - displacement.row(b)).norm();
         const double step = ramp(kGentleSlope, kStepSlope, change / std::max(length, 0.5));
         for (const int v : {a, b}) {
@@ -105,10 +105,10 @@ std::vector<double> widths(const geom::PolygonMesh& average, const SkinGraph& gr
 
 }  // namespace
 
-void ease_steps(const geom::PolygonMesh& average, geom::PolygonMesh& mesh) {
-    const SkinGraph graph = graph_of_skin(average);
-    const Points displacement = mesh.positions - average.positions;
-    const std::vector<double> width = widths(average, graph, displacement);
+void ease_steps(const geom::PolygonMesh& usual, geom::PolygonMesh& mesh) {
+    const SkinGraph graph = graph_of_skin(usual);
+    const Points displacement = mesh.positions - usual.positions;
+    const std::vector<double> width = widths(usual, graph, displacement);
     std::vector<int> row(graph.area.size(), -1);
     int rows = 0;
     for (std::size_t v = 0; v < row.size(); ++v)
@@ -137,7 +137,7 @@ void ease_steps(const geom::PolygonMesh& average, geom::PolygonMesh& mesh) {
     for (std::size_t v = 0; v < row.size(); ++v)
         if (row[v] >= 0)
             mesh.positions.row(static_cast<Eigen::Index>(v)) =
-                average.positions.row(static_cast<Eigen::Index>(v)) + spread.row(row[v]);
+                usual.positions.row(static_cast<Eigen::Index>(v)) + spread.row(row[v]);
 }
 
 }  // namespace risorius::headmodel

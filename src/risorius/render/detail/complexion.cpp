@@ -21,16 +21,17 @@ Complexion complexion_of(const Appearance& appearance) {
     };
     out.eyes = std::exp(much * (0.45 * around_zero() + 0.5 * appearance.age));
     out.cheeks = std::exp(much * 0.35 * around_zero());
-    out.nose = std::exp(much * 0.25 * around_zero());
+    out.nose = std::exp(much * (0.25 * around_zero() - 0.45));
     const double pigment = 0.16 * around_zero(), blood = 0.14 * around_zero();
     out.lips = (-much * Vec3(pigment, pigment + blood, pigment + 0.9 * blood)).array().exp();
     out.brows = std::exp(much * 0.3 * std::clamp(around_zero(), -1.5, 1.0));
     out.lashes = std::exp(much * 0.35 * around_zero());
     const double many = random.next();
     out.moles = static_cast<int>(much * 7 * many * many);
-    for (double* factor : {&out.eyes, &out.cheeks}) *factor = std::min(*factor, 2.2);
-    // Three zones of the nose lie over each other. Who is not mottled looks as before there were mottles.
-    out.nose = std::min(out.nose, appearance.mottling > 0 ? 1.3 : 2.2);
+    // Three zones of the nose lie over each other; more would look like a cold.
+    out.eyes = std::min(out.eyes, 2.0);
+    out.cheeks = std::min(out.cheeks, 1.6);
+    out.nose = std::min(out.nose, 1.0);
     return out;
 }
 

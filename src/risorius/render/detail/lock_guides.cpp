@@ -89,6 +89,14 @@ bool LockGround::in_fringe(const Vec3& d) const {
     return style_.fringe > 0 && d.z() > 0.1 && std::abs(d.x()) < 0.55 && !grows(d, kDeep_m);
 }
 
+bool LockGround::before_ear(const Vec3& d) const {
+    constexpr double kAbove_m = 0.026;
+    const EarRegion& ear = plan_.ears[0];
+    if (!style_.hangs || !ear.known) return false;
+    const Vec3 at = head_.centre() + head_.radius_m(d, false) * d;
+    return at.z() > ear.high.z() - 0.008 && at.y() < ear.high.y() + kAbove_m;
+}
+
 Vec3 LockGround::flow(const Vec3& at) const {
     const Vec3 from = at - head_.centre(), out = from.normalized();
     Vec3 way = Vec3::Zero();
@@ -313,7 +321,7 @@ std::vector<LockGuide> LockGround::guides(unsigned seed) const {
         for (int k = 0; k < 3; ++k) d[k] += reach * (random.next() - 0.5);
         d.normalize();
         const double ragged = 0.004 * random.next();
-        if (!grows(d, ragged)) continue;
+        if (!grows(d, ragged) || before_ear(d)) continue;
         LockGuide one = guide(d, random, 1);
         if (one.points.empty()) continue;
         // The border of cropped hair is made of single hairs alone.

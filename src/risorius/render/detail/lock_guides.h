@@ -37,6 +37,8 @@ class LockGround {
 
     /// Whether hair grows on the skin in a direction from the centre, at least so far from its border, m.
     bool grows(const Vec3& direction, double inside_m) const;
+    /// Whether hanging hair that grows there would hang in front of the ear, alone
+    bool before_ear(const Vec3& direction) const;
     /// Thickness of the cap, m; it falls to 0 towards the border.
     double cap_m(const Vec3& direction) const;
     /// The way of the hair in the skin at a point, a unit vector.

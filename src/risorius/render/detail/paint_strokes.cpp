@@ -127,7 +127,8 @@ void beard(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
     if (scene.appearance.beard <= 0 || plan.beard.empty()) return;
     constexpr double kPerSquareMetre = 1.1e6;  // on the chin of a man
     constexpr double kTrimmed_m = 0.0026;      // what the hairs of a trimmed beard are longer
-    const double longer_m = plan.trimmed ? kTrimmed_m : 0.0, whites = white_share(scene.appearance);
+    const double longer_m = plan.trimmed ? kTrimmed_m : 0.0,
+                 whites = white_share_of_beard(scene.appearance);
     const auto at = [&](std::size_t i) -> Vec3 {
         return scene.rest.row(static_cast<Eigen::Index>(skin[i])).transpose();
     };

@@ -47,7 +47,8 @@ void set_plan(const GlProgram& program, const SkinPlan& plan, const Appearance& 
     glUniform1f(program.location("age"), static_cast<float>(appearance.age));
     glUniform1f(program.location("mottling"), static_cast<float>(appearance.mottling));
     glUniform1f(program.location("beard"), static_cast<float>(appearance.beard));
-    glUniform1f(program.location("white_beard"), static_cast<float>(white_share(appearance)));
+    glUniform1f(program.location("white_beard"),
+                static_cast<float>(white_share_of_beard(appearance)));
     glUniform1f(program.location("trimmed"), plan.trimmed ? 1.0F : 0.0F);
     std::vector<float> beard;
     for (const SkinZone& zone : plan.beard) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "risorius/render/scene.h"
@@ -54,9 +55,13 @@ double beard_density(const SkinPlan& plan, const Vec3& rest);
 
 /// Share of white hairs: what the appearance says, or else what comes with its age.
 double white_share(const Appearance& appearance);
-/// Brows turn grey later than the hair of the head.
+/// Share of the short hairs that are drawn white. Dark hairs swallow light that white ones scatter, so few white ones are hardly seen;
+/// and brows turn grey later than the hair of the head.
+inline double white_share_of_beard(const Appearance& appearance) {
+    return std::pow(white_share(appearance), 1.6);
+}
 inline double white_share_of_brows(const Appearance& appearance) {
-    return 0.75 * white_share(appearance);
+    return 0.75 * white_share_of_beard(appearance);
 }
 
 /// Tone of short hair (brows, beard, stubble) with its white hairs.
