@@ -96,6 +96,10 @@ TEST(SkinPigments, LipstickReddensTheLipsOnly) {
     EXPECT_EQ(with.skin, without.skin);
     EXPECT_LT(with.lips.y(), 0.6 * without.lips.y());
     EXPECT_GT(with.lips.x() / with.lips.y(), 1.5 * without.lips.x() / without.lips.y());
+    // Not the same red on dark skin, where it would glow
+    Identity dark = painted;
+    dark.melanin = 0.95;
+    EXPECT_LT(skin_colours(dark, tone_tables()).lips.x(), 0.85 * with.lips.x());
 }
 
 TEST(SkinPigments, SurviveAFileAndRefuseTwoTones) {

@@ -32,7 +32,9 @@ double typology_angle_deg(const Vec3& tone) {
 
 SkinColours skin_colours(const Identity& identity, const DesignTables& tables) {
     constexpr double kCover = 0.8;
-    const Vec3 red(0.55, 0.13, 0.17);  // sRGB
+    // Darker on darker skin, or it would glow; sRGB
+    constexpr double kDarkest = 0.6, kFairSkin = 0.7;
+    const Vec3 red(0.55, 0.13, 0.17);
     SkinColours colours;
     if (identity.melanin) {
         colours = skin_colours(*identity.melanin, identity.haemoglobin, tables);
@@ -40,7 +42,10 @@ SkinColours skin_colours(const Identity& identity, const DesignTables& tables) {
         const Vec3& skin = tables.tones.at("skin").at(identity.skin);
         colours = {skin, tables.tones.at("lips").at(identity.skin), typology_angle_deg(skin)};
     }
-    if (identity.lipstick > 0) colours.lips += kCover * identity.lipstick * (red - colours.lips);
+    const double fair = std::min(colours.skin.mean() / kFairSkin, 1.0);
+    if (identity.lipstick > 0)
+        colours.lips +=
+            kCover * identity.lipstick * ((kDarkest + (1 - kDarkest) * fair) * red - colours.lips);
     return colours;
 }
 

@@ -29,8 +29,8 @@ Complexion complexion_of(const Appearance& appearance) {
     const double many = random.next();
     out.moles = static_cast<int>(much * 7 * many * many);
     // Three zones of the nose lie over each other; more would look like a cold.
-    out.eyes = std::min(out.eyes, 2.0);
-    out.cheeks = std::min(out.cheeks, 1.6);
+    out.eyes = std::min(out.eyes, 2.2);
+    out.cheeks = std::min(out.cheeks, 1.75);
     out.nose = std::min(out.nose, 1.0);
     return out;
 }

@@ -15,8 +15,9 @@ namespace {
 
 // Size of the texture of strands on a head
 constexpr double kStrandsAcross_m = 0.050, kStrandsAlong_m = 0.140;
-/// Height of the middle of a lock over its sides, and lean of the normal at them, ratios to half its width
-constexpr double kRoof = 0.35, kRound = 0.75;
+/// Height of the middle of a lock over its sides, and lean of the normal at them, ratios to half its width. Combed hair is lit as
+/// the sheet that its locks lie in, or each would look like a cord.
+constexpr double kRoof = 0.35, kRound = 0.75, kCombedRound = 0.2;
 
 double soft_step(double from, double to, double x) {
     const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
@@ -93,6 +94,7 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
     const std::size_t rows = guide.points.size(), columns = static_cast<std::size_t>(style.across);
     std::vector<HairVertex> lock;
     const bool tuft = style.flow == HairFlow::kRadial;
+    const double round = style.flow == HairFlow::kParting ? kCombedRound : kRound;
     const double half = 0.5e-3 * style.width_mm * guide.width * (0.75 + 0.5 * chance.tone);
     double along_m = kStrandsAlong_m * chance.along;
     hair.roots.push_back(guide.root);
@@ -118,7 +120,7 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
             v.along = along;
             // Tufts are lit as the whole of them is, not strip by strip.
             v.out = tuft ? (guide.out[i] + 0.4 * out).normalized()
-                         : (out + kRound * at * side).normalized();
+                         : (out + round * at * side).normalized();
             v.strand = {chance.across + at * width / kStrandsAcross_m, along_m / kStrandsAlong_m};
             v.lit = lit;
             v.tone = (0.92 + 0.16 * chance.tone) * (0.85 + 0.25 * s);

@@ -73,7 +73,7 @@ void main() {
         vec3 root = mix(sqrt(dark), sqrt(white), min(hairs.g * (1.0 + grey), 1.0));
         own = root * root;
     }
-    colour = vec4(shown(own * (0.50 + 0.72 * bright) + shine * (0.2 + 0.7 * bright)), told());
+    colour = vec4(shown(own * (0.60 + 0.60 * bright) + shine * (0.2 + 0.7 * bright)), told());
 }
 )";
 

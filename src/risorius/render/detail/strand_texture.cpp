@@ -23,9 +23,9 @@ std::vector<std::uint8_t> strand_texels(unsigned seed, double white_share) {
             const double v = 2 * std::numbers::pi * y / kAlong,
                          u = 2 * std::numbers::pi * x / kAcross + 0.05 * std::sin(v + phase[3]);
             bright[static_cast<std::size_t>(y) * kAcross + static_cast<std::size_t>(x)] =
-                static_cast<float>(0.46 + 0.10 * std::sin(5 * u + phase[0]) +
-                                   0.09 * std::sin(13 * u + phase[1]) +
-                                   0.06 * std::sin(29 * u + 2 * std::sin(v) + phase[2]));
+                static_cast<float>(0.46 + 0.06 * std::sin(5 * u + phase[0]) +
+                                   0.05 * std::sin(13 * u + phase[1]) +
+                                   0.05 * std::sin(29 * u + 2 * std::sin(v) + phase[2]));
         }
     for (int i = 0; i < kStrands; ++i) {
         const double at = random.next() * kAcross, from = random.next() * kAlong,
@@ -56,7 +56,7 @@ std::vector<std::uint8_t> strand_texels(unsigned seed, double white_share) {
             static_cast<std::uint8_t>(std::lround(255 * std::clamp(bright[k], 0.0F, 1.0F)));
         // Hairs lie side by side in every strand, so that none is all white or all dark.
         const auto mixed =
-            static_cast<float>(white_share + 0.30 * (static_cast<double>(white[k]) - white_share));
+            static_cast<float>(white_share + 0.22 * (static_cast<double>(white[k]) - white_share));
         texels[2 * k + 1] =
             static_cast<std::uint8_t>(std::lround(255 * std::clamp(mixed, 0.0F, 1.0F)));
     }
