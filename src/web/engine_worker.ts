@@ -117,6 +117,7 @@ async function placeOwn(script: string, rig: Pack["rigs"][string]): Promise<stri
 }
 
 async function open(message: Message): Promise<void> {
+  if (message.quality) told("quality", message.quality);
   let path: string;
   let rig: string;
   let name: string;

@@ -87,7 +87,7 @@ export class LocalEngine extends Engine {
       }
     };
     worker.onerror = (event) => this.fail(event.message);
-    worker.postMessage({ type: "open", sample: this.first });
+    worker.postMessage({ type: "open", sample: this.first, quality: new URLSearchParams(location.search).get("quality") });
     this.worker = worker;
   }
 

@@ -91,7 +91,7 @@ TEST(ProposedLandmarks, AreWithinMillimetresOnHeadsOfAnotherTopology) {
         // The targets are 1.5, 3 and 6 mm; decision 0091 has what was measured.
         EXPECT_LT(0.5 * (errors[9] + errors[10]), 1.1) << mesh;
         EXPECT_LT(errors[17], 2.4) << mesh;
-        EXPECT_LT(errors[19], 4.2) << mesh;
+        EXPECT_LT(errors[19], 3.4) << mesh;
         EXPECT_TRUE(proposal.unsure_required().empty()) << mesh;
     }
 }

@@ -24,8 +24,8 @@ writeFileSync(join(folder, "script.json"), JSON.stringify(script));
 if (shots) mkdirSync(shots, { recursive: true });
 
 let server = null;
-export function start(port = 0) {
-  server = spawn(program, ["view", join(folder, "script.json"), "--no-browser", "--port", String(port)], { stdio: ["ignore", "pipe", "inherit"] });
+export function start(port = 0, ...options) {
+  server = spawn(program, ["view", join(folder, "script.json"), "--no-browser", "--port", String(port), ...options], { stdio: ["ignore", "pipe", "inherit"] });
   return new Promise((resolve, reject) => {
     let text = "";
     server.stdout.on("data", (data) => {

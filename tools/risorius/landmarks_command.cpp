@@ -59,6 +59,7 @@ void run(LandmarksArguments& arguments) {
     arguments.options.parts = parts_of(arguments.parts);
     for (const std::string& text : arguments.templates)
         arguments.options.templates.push_back(template_of(text));
+    arguments.options.pictures = !arguments.report.empty();
     landmarks::LandmarkProposal proposal;
     {
         ProgressBar bar(arguments.common);

@@ -158,7 +158,7 @@ LandmarkProposal propose_landmarks(const LandmarkOptions& options, const Progres
     out.up = to_mesh.rotation.col(1);
     out.forward = to_mesh.rotation.col(2);
     for (const TemplateHead& head_of : known) out.templates.push_back(head_of.name);
-    out.pictures = landmark_pictures(head, judged, out.landmarks);
+    if (options.pictures) out.pictures = landmark_pictures(head, judged, out.landmarks);
     monitor.report(1, "done");
     return out;
 }

@@ -32,7 +32,8 @@ struct LandmarkOptions {
     std::vector<TemplateFiles> templates{};
     std::filesystem::path weights{};  ///< folder of the network; empty: weights_folder()
     std::filesystem::path
-        standard{};  ///< folder of the standard tables; empty: those of this toolkit
+        standard{};         ///< folder of the standard tables; empty: those of this toolkit
+    bool pictures = false;  ///< also draws those of LandmarkProposal, which a report shows
 };
 
 /// How sure a landmark is.

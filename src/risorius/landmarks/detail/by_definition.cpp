@@ -137,15 +137,17 @@ std::optional<Vec3> corner_near(const ShownHead& head, double outside, const Cor
 }
 
 constexpr double kAlong_m = 0.25e-3;  // between points of the profile
-constexpr double kAround_m = 5.5e-3;  // of a guess in which its ridge is looked for
-// A ridge that is as far from the guess has to turn by so much more.
-constexpr double kFar_m = 4e-3, kTurnOfFar_deg = 25;
+constexpr double kAround_m = 5.5e-3;  // of a guess in which an extremal point is looked for
+// The same of a ridge. One that is as far from the guess has to turn by so much more: the borders of lips turn by 20 to 80 degrees, and where
+// lips are thin, the comparison is off by up to 6.6 mm.
+constexpr double kAroundRidge_m = 8e-3, kFar_m = 6e-3, kTurnOfFar_deg = 25;
 
 /// The profile around a point of the midline, from above, as seen from the front.
-std::vector<Vec3> profile_near(const ShownHead& head, double outside, const Vec3& near) {
-    constexpr double kReach_m = kAround_m + 2 * kTurnOver_m;
+std::vector<Vec3> profile_near(const ShownHead& head, double outside, const Vec3& near,
+                               double around) {
+    const double reach = around + 2 * kTurnOver_m;
     std::vector<Vec3> seen;
-    for (double y = kReach_m; y >= -kReach_m; y -= kStep_m) {
+    for (double y = reach; y >= -reach; y -= kStep_m) {
         const Sight here = sight(head, near.x(), near.y() + y, near.z() + kBefore_m, outside);
         if (here.skin) seen.push_back(here.at);
     }
@@ -162,13 +164,13 @@ std::vector<Vec3> profile_near(const ShownHead& head, double outside, const Vec3
 
 /// The ridge of the profile near a guess: where it turns most.
 std::optional<Vec3> ridge_near(const ShownHead& head, double outside, const Vec3& guess) {
-    const std::vector<Vec3> profile = profile_near(head, outside, guess);
+    const std::vector<Vec3> profile = profile_near(head, outside, guess, kAroundRidge_m);
     const std::size_t apart = static_cast<std::size_t>(std::lround(kTurnOver_m / kAlong_m));
     std::optional<Vec3> out;
     double most = 0;
     for (std::size_t i = apart; i + apart < profile.size(); ++i) {
         const double away = (profile[i] - guess).norm();
-        if (away > kAround_m) continue;
+        if (away > kAroundRidge_m) continue;
         const Vec3 before = profile[i] - profile[i - apart],
                    after = profile[i + apart] - profile[i];
         // Outwards where the skin turns back: from above, y falls and z first grows.
@@ -188,7 +190,7 @@ std::optional<Vec3> ridge_near(const ShownHead& head, double outside, const Vec3
 std::optional<Vec3> extremal_near(const ShownHead& head, double outside, const Vec3& guess,
                                   double sign) {
     std::optional<Vec3> out;
-    for (const Vec3& p : profile_near(head, outside, guess))
+    for (const Vec3& p : profile_near(head, outside, guess, kAround_m))
         if ((p - guess).norm() < kAround_m && (!out || sign * (p.z() - out->z()) > 0)) out = p;
     if (out && (*out - guess).norm() > kAround_m - 2 * kAlong_m) return std::nullopt;
     return out;

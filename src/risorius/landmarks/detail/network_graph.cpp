@@ -160,6 +160,13 @@ NetworkGraph::~NetworkGraph() = default;
 
 std::vector<Picture> NetworkGraph::run(const Picture& picture) const {
     std::vector<Picture> results(impl_->steps.size());
+    // What no later step needs is let go of, so that its memory serves the next ones.
+    std::vector<std::size_t> last_use(results.size(), 0);
+    for (std::size_t i = 0; i < results.size(); ++i)
+        for (const int input : impl_->steps[i].inputs)
+            if (input >= 0) last_use[static_cast<std::size_t>(input)] = i;
+    for (const int step : impl_->wanted)
+        if (step >= 0) last_use[static_cast<std::size_t>(step)] = results.size();
     const auto result = [&](int step) -> const Picture& {
         return step < 0 ? picture : results[static_cast<std::size_t>(step)];
     };
@@ -191,6 +198,9 @@ std::vector<Picture> NetworkGraph::run(const Picture& picture) const {
                 results[i] = in;
                 break;
         }
+        for (const int input : step.inputs)
+            if (input >= 0 && last_use[static_cast<std::size_t>(input)] == i)
+                results[static_cast<std::size_t>(input)] = {};
     }
     std::vector<Picture> out;
     for (const int step : impl_->wanted) out.push_back(result(step));

@@ -9,6 +9,7 @@
 
 #include "risorius/core/error.h"
 #include "risorius/core/json_text.h"
+#include "risorius/face/quality.h"
 #include "risorius/face/view/skull.h"
 #include "risorius/view/detail/page_session.h"
 #include "risorius/view/scene_frame.h"
@@ -17,7 +18,7 @@ namespace {
 
 using risorius::Json;
 
-std::string given, answer;
+std::string given, answer, quality = "preview";
 std::unique_ptr<risorius::view::Session> session;
 
 /// Makes an answer, or the message of what is thrown.
@@ -49,11 +50,19 @@ char* studio_input(int bytes) {
 const char* studio_output() { return answer.data(); }
 int studio_output_size() { return static_cast<int>(answer.size()); }
 
+/// The input is the quality of the scripts that are opened from now on, a name of face::quality_named().
+int studio_quality() {
+    return answered([] {
+        (void)risorius::face::quality_named(given);
+        quality = given;
+        return std::string();
+    });
+}
 /// The input is the path of a script. The session that is open stays when this one cannot be opened.
 int studio_open() {
     setenv("RISORIUS_DATA", "/", 1);  // where the page puts the files of the toolkit
     return answered([] {
-        session = risorius::view::open_page_session(given);
+        session = risorius::view::open_page_session(given, quality);
         return session->welcome();
     });
 }
