@@ -70,5 +70,21 @@ TEST(Complexion, ShadeAroundTheEyesGrowsWithAge) {
     }
 }
 
+/// Short hair is drawn hair by hair, so that grey is white beside dark, and a few white ones are hardly seen.
+TEST(GreyBeard, HasFewWhiteHairsUntilMostAreWhite) {
+    Appearance appearance;
+    appearance.hair_tone = Vec3(0.10, 0.08, 0.07);
+    appearance.grey_hair = 0;
+    EXPECT_EQ(white_share_of_beard(appearance), 0);
+    EXPECT_EQ(hair_tone_at(appearance), dark_hair_tone(appearance));
+    appearance.grey_hair = 0.23;
+    EXPECT_LT(white_share_of_beard(appearance), 0.12);
+    EXPECT_LT(white_share_of_brows(appearance), white_share_of_beard(appearance));
+    EXPECT_GT(hair_tone_at(appearance).x(), dark_hair_tone(appearance).x());
+    appearance.grey_hair = 1;
+    EXPECT_EQ(white_share_of_beard(appearance), 1);
+    EXPECT_EQ(dark_hair_tone(appearance), Vec3(0.10, 0.08, 0.07)) << "whatever is white";
+}
+
 }  // namespace
 }  // namespace risorius::render
