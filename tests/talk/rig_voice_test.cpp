@@ -192,6 +192,37 @@ TEST(CheckSpeech, LipsThatPartBeforeTheReleaseAreClosedForLongerAndPressAsBefore
     EXPECT_EQ(targets.bounds[0].from_s, 1.01);
 }
 
+TEST(CheckSpeech, LipsThatMeetTooEarlyBeginLaterUnlessTheyWereShutBefore) {
+    ClosureCheck early{.phone = 7,
+                       .closure_s = 1,
+                       .release_s = 1.08,
+                       .max_gap_mm = 0.1,
+                       .least_gap_mm = 0,
+                       .contact_s = 0.965,
+                       .open_s = 1.085,
+                       .closed_until_s = 1.082};
+    EXPECT_FALSE(early.in_time());
+    const auto changes = changes_for({early}, {});
+    ASSERT_EQ(changes.size(), 1u);
+    // Twice what is missing to 18 ms, and 30 ms at most
+    EXPECT_EQ(changes[0].earlier_s, -0.03);
+    EXPECT_EQ(changes[0].deeper_mm, 0);
+    const auto more = changes_for({early}, changes);
+    EXPECT_EQ(more[0].earlier_s, -0.03);
+    speech::ArticulationTargets targets{0, 2, {}, {}, {{7, 7, 1, 1.08}}, {}};
+    targets.windows = {{speech::Parameter::kGap, 1.01, 1.062, -1.2, 0.02, false, 7}};
+    speech::change_closures(changes, targets);
+    EXPECT_NEAR(targets.windows[0].from_s, 1.01 + 0.03, 1e-9);
+    EXPECT_EQ(targets.windows[0].to_s, 1.062);
+    early.from_rest = true;
+    EXPECT_TRUE(early.in_time());
+    EXPECT_TRUE(changes_for({early}, {}).empty());
+    early.from_rest = false;
+    early.contact_s = 0.976;
+    EXPECT_TRUE(early.in_time());
+    EXPECT_TRUE(changes_for({early}, {}).empty());
+}
+
 TEST(CheckSpeech, LipsThatOpenLateAreAskedToBeApartSoonAfterTheRelease) {
     const ClosureCheck late{.phone = 7,
                             .closure_s = 1,

@@ -21,7 +21,9 @@ constexpr double kOpenGap_mm = 0.5;
 // How far around a closure its contact and its opening are looked for
 constexpr double kBefore_s = 0.15, kAfter_s = 0.2;
 // Lateness that is left as it is, and the most that one pass changes
-constexpr double kLate_s = 0.010, kTooEarly_s = 0.025, kMaxEarlier_s = 0.03, kOpensLate_s = 0.017;
+constexpr double kLate_s = 0.010, kMaxEarlier_s = 0.03, kOpensLate_s = 0.017;
+// A contact that is too early is put off until it is this early.
+constexpr double kEarlyEnough_s = 0.018;
 constexpr double kDeeper = 2, kDeeperAtLeast_mm = 0.6, kDeepest_mm = 8;
 // The lips gain less than half of the time by which they begin earlier.
 constexpr double kEarlier = 2;
@@ -30,7 +32,7 @@ constexpr double kStuck_s = 0.05, kLessDeep = 0.6;
 constexpr double kUsuallyDeeper_mm = 2;
 // Vowels that open too little: what is left as it is, and the most that is asked for beyond the plan
 constexpr double kMissing_mm = 1, kWider = 0.8, kWidest_mm = 6;
-constexpr double kEarliest_s = 0.06, kShortest_s = 0.03, kLongest_s = 0.04;
+constexpr double kEarliest_s = 0.06, kLatest_s = 0.03, kShortest_s = 0.03, kLongest_s = 0.04;
 
 std::string cell(double value, int decimals) {
     if (std::isnan(value)) return "\t";
@@ -75,6 +77,9 @@ std::vector<ClosureCheck> check_closures(const MouthTrack& track, const PlacedUt
         check.phone = closure.first_phone;
         check.closure_s = placed.start_s + closure.closure_s;
         check.release_s = placed.start_s + closure.release_s;
+        check.from_rest =
+            closure.first_phone == 0 ||
+            placed.utterance.phones[static_cast<std::size_t>(closure.first_phone) - 1].is_pause();
         check.least_gap_mm = std::numeric_limits<double>::infinity();
         for (double t = check.closure_s; t <= check.release_s; t += kMouthStep_s / 2) {
             const double gap = track.at(t, &Mouth::gap);
@@ -168,9 +173,9 @@ ClosureChange change_for(const ClosureCheck& check, const ClosureChange& before)
     if (leaks || late_s > kLate_s) {
         const double over_s = std::isnan(check.contact_s) ? late_s : late_s - kLate_s / 2;
         change.earlier_s = std::clamp((leaks ? kEarlier : 1) * over_s, 0.0, kMaxEarlier_s);
-    } else if (late_s < -kTooEarly_s) {
-        // What was too much of an earlier change; it may have shut the vowel before.
-        change.earlier_s = std::max(late_s + kTooEarly_s, -kMaxEarlier_s / 2);
+    } else if (late_s < -kInTime_s && !check.from_rest) {
+        // It may have shut the vowel before. The lips are as slow to meet later as they are to meet earlier.
+        change.earlier_s = std::max(kEarlier * (late_s + kEarlyEnough_s), -kMaxEarlier_s);
     }
     if (too_early)
         change.shorter_s = -std::min(early_s, kMaxEarlier_s);
@@ -196,7 +201,7 @@ std::vector<ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
         ClosureChange& to =
             known != before.end() ? *known : before.emplace_back(ClosureChange{change.phone});
         to.deeper_mm = std::min(kDeepest_mm, to.deeper_mm + change.deeper_mm);
-        to.earlier_s = std::clamp(to.earlier_s + change.earlier_s, 0.0, kEarliest_s);
+        to.earlier_s = std::clamp(to.earlier_s + change.earlier_s, -kLatest_s, kEarliest_s);
         to.shorter_s = std::clamp(to.shorter_s + change.shorter_s, -kLongest_s, kShortest_s);
         if (!stuck) continue;
         // Lips that are pressed too hard, or held on to the next closure, do not part in time.

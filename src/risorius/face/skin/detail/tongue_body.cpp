@@ -22,12 +22,13 @@ constexpr double kRootFrom = -0.15, kRootTo = 0.1;  // the root follows half
 // A tongue that is pushed against the palate flattens: 1 on the channel would take a point through it by this part of the way.
 constexpr double kPress = 0.2;
 constexpr double kSoftStart = 0.1;      // of the channel, in which the arch begins to rise
-constexpr double kLower_mm = 12;        // the body at -1
+constexpr double kLower_mm = 7;         // the body at -1, which stays above the floor of the mouth
 constexpr double kHump_mm = 4;          // of a tongue at rest, which moves with the channel back
 constexpr double kHighestArch_mm = 30;  // no arch is higher
-constexpr double kUnderside = 0.5;      // rise of the underside / rise of the back
-constexpr double kEdge = 0.6;           // rise of the edges / rise of the middle
-constexpr double kEdgeFrom = 0.45;      // from here on to the edge, as a fraction of the half width
+// Rise of the underside / rise of the back, of a body that rises and of one that sinks
+constexpr double kUnderside = 0.5, kUndersideSinks = 0.8;
+constexpr double kEdge = 0.6;        // rise of the edges / rise of the middle
+constexpr double kEdgeFrom = 0.45;   // from here on to the edge, as a fraction of the half width
 constexpr double kThinBody_mm = 16;  // of what stretches; the underside may belong to another part
 constexpr double kNarrow = 0.85;     // power of the stretch by which it becomes narrower
 constexpr double kFilm_mm = 0.15;    // between tongue and palate in contact
@@ -77,13 +78,14 @@ TongueSection TongueBody::section_at(double along) const {
             (1 - t) * a.half_width + t * b.half_width};
 }
 
-double TongueBody::share(const TonguePoint& point, const TongueSection& section) const {
+double TongueBody::share(const TonguePoint& point, const TongueSection& section,
+                         double underside) const {
     const double half = point.height > 0 ? section.top : section.bottom;
     const double above = half > 0 ? std::clamp(point.height / half, -1.0, 1.0) : 0.0;
     const double aside =
         section.half_width > 0 ? std::min(1.0, std::abs(point.side) / section.half_width) : 0.0;
     return (1 - (1 - kEdge) * geom::smoothstep(kEdgeFrom, 1.0, aside)) *
-           (1 - (1 - kUnderside) * 0.5 * (1 - above));
+           (1 - (1 - underside) * 0.5 * (1 - above));
 }
 
 void TongueBody::raise(double up, double back, const Points& vertices,
@@ -96,7 +98,7 @@ void TongueBody::raise(double up, double back, const Points& vertices,
     // How high the top of the arch is when the first point touches the palate, without what the moved hump adds
     double way = kHighestArch_mm * millimetre_;
     for (const TonguePoint& point : points) {
-        const double part = share(point, section_at(point.along)),
+        const double part = share(point, section_at(point.along), kUnderside),
                      here = arch_at(point.along, back);
         if (part * here <= kTouches) continue;
         const double moved = hump * part * (here - arch_at(point.along, 0));
@@ -107,13 +109,14 @@ void TongueBody::raise(double up, double back, const Points& vertices,
     for (TonguePoint& point : points) {
         const TongueSection section = section_at(point.along);
         const double here = arch_at(point.along, back), rest = arch_at(point.along, 0);
-        const double rise = above * here + hump * (here - rest) - below * rest;
+        const double rise = above * here + hump * (here - rest);
         const double thickness = std::max(section.top + section.bottom, kThinBody_mm * millimetre_);
         // One that becomes lower would go through the teeth if it became wider
         const double stretch =
             1 + (1 - kUnderside) * std::clamp(rise, 0.0, std::max(way, 0.0)) / thickness;
         point.p.x() *= std::pow(stretch, -kNarrow);
-        point.p.y() += held_back(share(point, section) * rise, room(point));
+        point.p.y() += held_back(share(point, section, kUnderside) * rise, room(point)) -
+                       share(point, section, kUndersideSinks) * below * rest;
     }
 }
 

@@ -42,7 +42,7 @@ class TongueBody {
   private:
     TongueSection section_at(double along) const;
     /// Rise of a point / rise of the middle of the back above it.
-    double share(const TonguePoint& point, const TongueSection& section) const;
+    double share(const TonguePoint& point, const TongueSection& section, double underside) const;
 
     double millimetre_ = 1e-3;
     std::vector<TongueSection> sections_;
