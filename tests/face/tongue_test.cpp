@@ -235,9 +235,9 @@ TEST(TongueBody, AHeadWithoutAPalateHasAnEstimate) {
         adult(oral_head(), 0.04, 0.06, {-0.046, -0.046});
     EXPECT_FALSE(none.found());
     EXPECT_TRUE(adult.found());
-    EXPECT_NEAR(none.heights(bare.vertices).at(0.05), -0.046 + bare.mm(15.5), 1e-9);
-    EXPECT_NEAR(none.heights(bare.vertices).at(0.05), adult.heights(oral_head().vertices).at(0.05),
-                2e-3);
+    EXPECT_NEAR(none.heights(bare.vertices).at(0, 0.05), -0.046 + bare.mm(15.5), 1e-9);
+    EXPECT_NEAR(none.heights(bare.vertices).at(0, 0.05),
+                adult.heights(oral_head().vertices).at(0, 0.05), 2e-3);
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace risorius::face {
 
 namespace {
 
-constexpr double kAside_mm[] = {0, -4, 4, -8, 8};  // where the roof is measured, from the middle
+constexpr double kAside_mm = 8,
+                 kAcross_mm = 4;  // from the middle to its last column, and from one to the next
 // Above the dorsum at rest: the height of the vault where a head has no roof, and what is too high to be one. Estimates.
 constexpr double kVault_mm = 15.5, kTooHigh_mm = 30;
 constexpr double kBoneNear_mm = 4;  // of a bone whose triangles are not known, sideways
@@ -74,17 +75,25 @@ void meet(const std::vector<int>& bone, const Points& vertices, const Vec3& from
 
 }  // namespace
 
-double PalateHeights::at(double z) const {
-    const double place =
-        std::clamp((z - from_z) / step_m, 0.0, static_cast<double>(y.size() - 1) - 1e-9);
-    const auto k = static_cast<std::size_t>(place);
-    const double t = place - static_cast<double>(k);
-    return (1 - t) * y[k] + t * y[k + 1];
+double PalateHeights::at(double x, double z) const {
+    const auto place = [](double from, double step, double at, std::size_t count) {
+        return std::clamp((at - from) / step, 0.0, static_cast<double>(count - 1) - 1e-9);
+    };
+    const double across = place(from_x, step_x_m, x, y.front().size()),
+                 along = place(from_z, step_z_m, z, y.size());
+    const auto i = static_cast<std::size_t>(across), k = static_cast<std::size_t>(along);
+    const double s = across - static_cast<double>(i), t = along - static_cast<double>(k);
+    return (1 - t) * ((1 - s) * y[k][i] + s * y[k][i + 1]) +
+           t * ((1 - s) * y[k + 1][i] + s * y[k + 1][i + 1]);
 }
 
 Palate::Palate(const rig::Head& head, double from_z, double to_z,
                const std::vector<double>& dorsum_y)
-    : from_z_(from_z), step_m_((to_z - from_z) / static_cast<double>(dorsum_y.size() - 1)) {
+    : grid_{-head.mm(kAside_mm),
+            from_z,
+            head.mm(kAcross_mm),
+            (to_z - from_z) / static_cast<double>(dorsum_y.size() - 1),
+            {}} {
     std::vector<int> bone;
     for (long v = 0; v < head.vertices.rows(); ++v)
         if (head.carrier[static_cast<std::size_t>(v)] == rig::Carrier::kSkull)
@@ -92,9 +101,9 @@ Palate::Palate(const rig::Head& head, double from_z, double to_z,
     const double top = *std::max_element(dorsum_y.begin(), dorsum_y.end());
     for (std::size_t k = 0; k < dorsum_y.size(); ++k) {
         auto& row = rows_.emplace_back();
-        for (const double aside_mm : kAside_mm) {
+        for (double aside_mm = -kAside_mm; aside_mm <= kAside_mm; aside_mm += kAcross_mm) {
             const Vec3 from(head.mm(aside_mm), dorsum_y[k] + head.mm(kClear_mm),
-                            from_z + static_cast<double>(k) * step_m_);
+                            from_z + static_cast<double>(k) * grid_.step_z_m);
             RoofHit hit;
             hit.y = top + head.mm(kTooHigh_mm);
             meet(head.lining, head.vertices, from, hit);
@@ -107,15 +116,14 @@ Palate::Palate(const rig::Head& head, double from_z, double to_z,
 }
 
 PalateHeights Palate::heights(const Points& vertices) const {
-    PalateHeights out{from_z_, step_m_, {}};
+    PalateHeights out = grid_;
     for (const std::vector<Point>& row : rows_) {
-        double low = 1e300;
+        std::vector<double>& heights = out.y.emplace_back();
         for (const Point& point : row) {
             double y = point.of.empty() ? point.y : 0;
             for (const auto& [v, weight] : point.of) y += weight * vertices(v, 1);
-            low = std::min(low, y);
+            heights.push_back(y);
         }
-        out.y.push_back(low);
     }
     return out;
 }

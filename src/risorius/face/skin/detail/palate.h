@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// The roof of the mouth above the tongue, as heights along the tongue: the lowest surface above a strip about its middle. On a head
-/// without one, it is an estimate.
+/// The roof of the mouth above the tongue, as heights on a grid along and across the tongue: those of the lowest surface above it. On a
+/// head without one, it is an estimate.
 #pragma once
 
 #include <utility>
@@ -12,11 +12,12 @@
 
 namespace risorius::face {
 
-/// Heights at places that are evenly spaced from the root of the tongue to its tip.
+/// Heights at places that are evenly spaced from the root of the tongue to its tip, and from the right to the left.
 struct PalateHeights {
-    double from_z = 0, step_m = 1;
-    std::vector<double> y;  ///< head frame, m
-    double at(double z) const;
+    double from_x = 0, from_z = 0, step_x_m = 1, step_z_m = 1;
+    std::vector<std::vector<double>> y;  ///< head frame, m; a row for each z
+    /// Linear between the places; beyond them, as high as at the last one.
+    double at(double x, double z) const;
 };
 
 /// The palate of one head.
@@ -37,8 +38,8 @@ class Palate {
         std::vector<std::pair<int, double>> of;  ///< vertex, weight
         double y = 0;                            ///< if there are none
     };
-    double from_z_ = 0, step_m_ = 1;
-    std::vector<std::vector<Point>> rows_;  ///< the points across the tongue at each place
+    PalateHeights grid_;                    ///< without its heights
+    std::vector<std::vector<Point>> rows_;  ///< the points across the tongue at each z
     bool found_ = false;
 };
 

@@ -93,7 +93,7 @@ void TongueBody::raise(double up, double back, const Points& vertices,
     const PalateHeights palate = palate_.heights(vertices);
     const double film = kFilm_mm * millimetre_, hump = kHump_mm * millimetre_;
     const auto room = [&](const TonguePoint& point) {
-        return palate.at(point.p.z()) - film - point.p.y();
+        return palate.at(point.p.x(), point.p.z()) - film - point.p.y();
     };
     // How high the top of the arch is when the first point touches the palate, without what the moved hump adds
     double way = kHighestArch_mm * millimetre_;
