@@ -63,7 +63,7 @@ struct LabiodentalContact {
 struct ClosureChange {
     int phone = 0;         ///< index of the first phone of the closure, or of the vowel
     double deeper_mm = 0;  ///< the lips press by this more, >= 0
-    double earlier_s = 0;  ///< they begin to close earlier by this; < 0: later
+    double earlier_s = 0;  ///< they begin to close earlier by this, >= 0
     /// They begin to open earlier by this, and are apart soon after the release; below 0: later
     double shorter_s = 0;
     double wider_mm = 0;  ///< of a vowel: the lips are asked to open by this more, >= 0

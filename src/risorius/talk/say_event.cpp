@@ -135,7 +135,7 @@ SayEvent read_say(const JsonCursor& event, double duration_s) {
             speech::ClosureChange change;
             change.phone = item.at("phone").integer(0, 2147483647);
             if (const auto d = item.find("deeper_mm")) change.deeper_mm = d->number({0, 20});
-            if (const auto d = item.find("earlier_s")) change.earlier_s = d->number({-0.2, 0.2});
+            if (const auto d = item.find("earlier_s")) change.earlier_s = d->number({0, 0.2});
             if (const auto d = item.find("shorter_s")) change.shorter_s = d->number({-0.1, 0.2});
             if (const auto d = item.find("wider_mm")) change.wider_mm = d->number({0, 20});
             out.adjust.push_back(change);
