@@ -121,7 +121,7 @@ double depth_in_teeth_mm(const Points& at, const char* group) {
 }
 
 TEST(TongueBody, AtOneItTouchesThePalateHoweverFarTheJawIsOpen) {
-    for (const double jaw : {0.0, 0.12, 0.3})
+    for (const double jaw : {0.0, 0.12, 0.3, 0.5})
         for (const double place : kArches) {
             const double gap = palate_gap_mm(oral_mouth(with_body(1, place, jaw)));
             EXPECT_LT(gap, 0.5) << "jaw " << jaw << ", place " << place;

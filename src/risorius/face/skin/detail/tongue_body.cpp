@@ -24,13 +24,14 @@ constexpr double kPress = 0.2;
 constexpr double kSoftStart = 0.1;      // of the channel, in which the arch begins to rise
 constexpr double kLower_mm = 7;         // the body at -1, which stays above the floor of the mouth
 constexpr double kHump_mm = 4;          // of a tongue at rest, which moves with the channel back
-constexpr double kHighestArch_mm = 30;  // no arch is higher
+constexpr double kHighestArch_mm = 60;  // no arch is higher; more than in a wide open mouth
 // Rise of the underside / rise of the back, of a body that rises and of one that sinks
 constexpr double kUnderside = 0.5, kUndersideSinks = 0.8;
 constexpr double kEdge = 0.6;        // rise of the edges / rise of the middle
 constexpr double kEdgeFrom = 0.45;   // from here on to the edge, as a fraction of the half width
 constexpr double kThinBody_mm = 16;  // of what stretches; the underside may belong to another part
 constexpr double kNarrow = 0.85;     // power of the stretch by which it becomes narrower
+constexpr int kBehindRoot = 6;       // sections by which the palate is known behind the root
 constexpr double kFilm_mm = 0.15;    // between tongue and palate in contact
 constexpr double kTouches = 0.3;     // points that rise less do not touch the palate first
 
@@ -63,10 +64,12 @@ double held_back(double rise, double room) {
 TongueBody::TongueBody(const rig::Head& head, double from_z, double to_z,
                        std::vector<TongueSection> sections, const std::vector<double>& middle_y)
     : millimetre_(head.mm(1)), sections_(std::move(sections)) {
-    std::vector<double> back;
+    // An open jaw takes the root backwards, below what lies behind it
+    std::vector<double> back(kBehindRoot, middle_y.front() + sections_.front().top);
     for (std::size_t k = 0; k < sections_.size(); ++k)
         back.push_back(middle_y[k] + sections_[k].top);
-    palate_ = Palate(head, from_z, to_z, back);
+    const double step = (to_z - from_z) / static_cast<double>(sections_.size() - 1);
+    palate_ = Palate(head, from_z - kBehindRoot * step, to_z, back);
 }
 
 TongueSection TongueBody::section_at(double along) const {
