@@ -21,6 +21,8 @@ constexpr double kTipFrom = 0.85, kTipTo = 0.97;    // from here on, the tip doe
 constexpr double kRootFrom = -0.15, kRootTo = 0.1;  // the root follows half
 // A tongue that is pushed against the palate flattens: 1 on the channel would take a point through it by this part of the way.
 constexpr double kPress = 0.2;
+// Where another point touches first, the top of the arch is still below the palate: near 1, the tongue is pressed harder.
+constexpr double kPressMore = 0.22, kPressFrom = 0.7, kPressTo = 1;
 constexpr double kSoftStart = 0.1;      // of the channel, in which the arch begins to rise
 constexpr double kLower_mm = 7;         // the body at -1, which stays above the floor of the mouth
 constexpr double kHump_mm = 4;          // of a tongue at rest, which moves with the channel back
@@ -107,8 +109,8 @@ void TongueBody::raise(double up, double back, const Points& vertices,
         const double moved = hump * part * (here - arch_at(point.along, 0));
         way = std::min(way, std::max(0.0, room(point) - moved) / (part * here));
     }
-    const double above = (1 + kPress) * way * softly(up),
-                 below = kLower_mm * millimetre_ * softly(-up);
+    const double press = 1 + kPress + kPressMore * geom::smoothstep(kPressFrom, kPressTo, up);
+    const double above = press * way * softly(up), below = kLower_mm * millimetre_ * softly(-up);
     for (TonguePoint& point : points) {
         const TongueSection section = section_at(point.along);
         const double here = arch_at(point.along, back), rest = arch_at(point.along, 0);
