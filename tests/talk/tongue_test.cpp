@@ -129,7 +129,7 @@ TEST(SpokenTongue, TouchesThePalateInKAndGAndLeavesItInTheVowels) {
         }
         EXPECT_GT(tongue_in_mouth().gap_mm(tongue_in_mouth().at(said, kBodyClosure_s - 0.1)), 10)
             << stop;
-        EXPECT_GT(tongue_in_mouth().gap_mm(tongue_in_mouth().at(said, kBodyRelease_s + 0.025)), 0.3)
+        EXPECT_GT(tongue_in_mouth().gap_mm(tongue_in_mouth().at(said, kBodyRelease_s + 0.05)), 0.3)
             << stop;
         EXPECT_GT(
             tongue_in_mouth().gap_mm(tongue_in_mouth().at(said, kBodyClosure_s + 0.12 + 0.13)), 1.5)
