@@ -192,6 +192,36 @@ TEST(CheckSpeech, LipsThatPartBeforeTheReleaseAreClosedForLongerAndPressAsBefore
     EXPECT_EQ(targets.bounds[0].from_s, 1.01);
 }
 
+TEST(CheckSpeech, WhereLipsMeetTooEarlyTheSoundBeforeOpensThemFurther) {
+    ClosureCheck early{.phone = 7,
+                       .closure_s = 1,
+                       .release_s = 1.08,
+                       .max_gap_mm = 0.1,
+                       .least_gap_mm = 0,
+                       .contact_s = 0.965,
+                       .open_s = 1.085,
+                       .closed_until_s = 1.082};
+    EXPECT_FALSE(early.in_time());
+    const auto changes = changes_for({early}, {});
+    ASSERT_EQ(changes.size(), 2u);
+    EXPECT_EQ(changes[0].phone, 7);
+    EXPECT_EQ(changes[0].earlier_s + changes[0].deeper_mm + changes[0].wider_mm, 0);
+    EXPECT_EQ(changes[1].phone, 6);
+    EXPECT_EQ(changes[1].wider_mm, 1.5);
+    EXPECT_EQ(changes_for({early}, changes)[1].wider_mm, 3);
+    // What was begun earlier before is taken back first.
+    const auto back = changes_for({early}, {{.phone = 7, .earlier_s = 0.02}});
+    ASSERT_EQ(back.size(), 1u);
+    EXPECT_NEAR(back[0].earlier_s, 0.01, 1e-9);
+    early.from_rest = true;
+    EXPECT_TRUE(early.in_time());
+    EXPECT_TRUE(changes_for({early}, {}).empty());
+    early.from_rest = false;
+    early.contact_s = 0.976;
+    EXPECT_TRUE(early.in_time());
+    EXPECT_TRUE(changes_for({early}, {}).empty());
+}
+
 TEST(CheckSpeech, LipsThatOpenLateAreAskedToBeApartSoonAfterTheRelease) {
     const ClosureCheck late{.phone = 7,
                             .closure_s = 1,

@@ -54,10 +54,10 @@ bool same(const std::vector<speech::ClosureChange>& one,
                       });
 }
 
-/// More closures hold; of as many, fewer of them stay shut too long; then, vowels open as far as planned.
+/// More closures hold; of as many, fewer of them stay shut too long; then, more meet in time, and vowels open as far as planned.
 bool is_better(const talk::CheckedSpeech& one, const talk::CheckedSpeech& other) {
-    return std::tuple(one.held, one.opened, -one.missing_mm) >
-           std::tuple(other.held, other.opened, -other.missing_mm);
+    return std::tuple(one.held, one.opened, one.in_time, -one.missing_mm) >
+           std::tuple(other.held, other.opened, other.in_time, -other.missing_mm);
 }
 
 /// Writes the utterance, the script and what the script shows. The first two appear with the last one, or not at all. Returns
@@ -118,7 +118,7 @@ talk::CheckedSpeech render_speech(SpeakArguments& arguments, talk::SpokenResult&
         std::vector<speech::ClosureChange> changes = talk::changes_for(closures, options.adjust);
         // Closures come first: vowels are widened in the last pass, which counts only if no closure is lost.
         const bool all_held = best.held == best.total,
-                   all_well = all_held && best.opened == best.total;
+                   all_well = all_held && best.opened == best.total && best.in_time == best.total;
         const bool last =
             pass + 1 >= arguments.passes || (pass > 0 && all_well) || same(changes, options.adjust);
         if (last) {

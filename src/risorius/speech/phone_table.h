@@ -21,8 +21,8 @@ enum class Parameter {
     kProtrusion,  ///< of both lips
     kTipHeight,   ///< tongue tip, [0, 1]; 1: on the ridge behind the upper teeth
     kTipForward,  ///< tongue tip, mm
-    kBodyHeight,  ///< tongue body, [0, 1]
-    kBodyBack,    ///< tongue body, [0, 1]
+    kBodyHeight,  ///< tongue body, [0, 1]; 1: a close vowel
+    kBodyBack,    ///< tongue body, [0, 1]; 1: at the soft palate
     kCount
 };
 inline constexpr std::size_t kParameterCount = static_cast<std::size_t>(Parameter::kCount);
@@ -65,6 +65,11 @@ struct PhoneEntry {
     Articulation target{};
     double weight = 1;  ///< how much the target counts, relative to others of the class
     bool is_stop() const { return manner == "stop"; }
+    /// Whether the body of the tongue closes the mouth at the palate: k g ng and the like.
+    bool closes_palate() const {
+        return (place == "palatal" || place == "velar" || place == "uvular") &&
+               (is_stop() || manner == "nasal");
+    }
 };
 
 /// The symbol of a pause.

@@ -69,7 +69,8 @@ class Mixer {
     Eigen::VectorXd at(double t_s) {
         Eigen::VectorXd y(places_.rows()), cost(places_.cols());
         for (std::size_t p = 0; p < kParameterCount; ++p)
-            y[static_cast<long>(p)] = kScale[p] * curves_.at(static_cast<Parameter>(p), t_s);
+            y[static_cast<long>(p)] =
+                kScale[p] * std::min(curves_.at(static_cast<Parameter>(p), t_s), most(p));
         y[kParameterCount] = kSumScale;
         cost.setConstant(kForeignCost);
         // The mouth at rest is always near: sounds reach their place only in part.
@@ -100,6 +101,10 @@ class Mixer {
         PhoneEntry entry;
         double start_s, end_s;
     };
+    /// Visemes do not press on the palate.
+    static double most(std::size_t p) {
+        return p == static_cast<std::size_t>(Parameter::kBodyHeight) ? 1 : 1e300;
+    }
     static Articulation rest_place() {
         Articulation place{};
         value_of(place, Parameter::kTipHeight) = 0.2;

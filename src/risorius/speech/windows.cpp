@@ -57,6 +57,8 @@ constexpr double kReleaseFraction = 0.2, kLongestRelease_s = 0.03;
 
 constexpr double kClosureJaw_mm = 5.5, kLabiodentalJaw_mm = 6, kSibilantJaw_mm = 3;
 constexpr double kSoftContact = 0.6;
+// The dorsum touches the palate from the closure of k on, and leaves it at the release; it presses most in between.
+constexpr double kTouchingBody = 1.2, kBodyRelease_s = 0.010;
 
 double tau_of(PhoneClass kind, Parameter parameter) {
     const ClassTimes& times = kTimes[static_cast<std::size_t>(kind)];
@@ -211,7 +213,8 @@ class Planner {
         if (entry.kind == PhoneClass::kNeutral) return;  // the shape of what follows
         const bool vowel = is_vowel(entry.kind);
         const bool stressed = vowel && utterance_.phones[i].stress == 2;
-        const Articulation target = styled(entry, style_, stressed);
+        Articulation target = styled(entry, style_, stressed);
+        if (entry.closes_palate()) value_of(target, Parameter::kBodyHeight) = kPressedBody;
         const double from_s = start_of(i), length_s = end_of(i) - from_s;
         double a = from_s + (vowel ? kVowelFrom : kOtherFrom) * length_s,
                b = from_s + (vowel ? kVowelTo : kOtherTo) * length_s;
@@ -256,6 +259,9 @@ class Planner {
                 bound(i, Parameter::kGap, open_s, close_s,
                       std::min(kOpenGap_mm, kOpenFraction * gap), kInfinite);
         }
+        if (entries_[i].closes_palate())
+            bound(i, Parameter::kBodyHeight, closure_s(i),
+                  std::max(closure_s(i), release_s(i) - kBodyRelease_s), kTouchingBody, kInfinite);
         const double a = from_s - kContactLead_s, b = from_s + kContactTo * length_s;
         if (kind == PhoneClass::kLabiodental || kind == PhoneClass::kLabiodentalSoft) {
             // Bilabial fricatives are of the soft class, too, but have nothing to do with the teeth.

@@ -86,6 +86,8 @@ inline constexpr double kClosingPause_s = 0.26;
 inline constexpr double kClosedGap_mm = -0.5;
 /// A closure holds from its beginning + kAfterClosure_s to its release - kBeforeRelease_s.
 inline constexpr double kAfterClosure_s = 0.010, kBeforeRelease_s = 0.018;
+/// Height of the tongue body in k, g and the like: it presses on the palate, as lips press, higher than in the closest vowel (1).
+inline constexpr double kPressedBody = 1.25;
 
 /// Throws Error for a symbol that `table` does not know.
 ArticulationTargets targets_of(const Utterance& utterance, const PhoneTable& table,

@@ -21,6 +21,8 @@ const std::array<KinematicChannel, kKinematicCount>& kinematic_channels() {
         {"mouth_pressure_pa", -5000, 5000},
         {"tongue_out", 0, 1},
         {"tongue_up", -1, 1},
+        {"tongue_body_up", -1, 1},
+        {"tongue_body_back", -1, 1},
     }};
     return kChannels;
 }

@@ -48,6 +48,9 @@ enum class Kinematic {
     kTongueOut,
     // Curl of the tip, [-1, 1]: > 0 up, < 0 down.
     kTongueUp,
+    // Its body, [-1, 1]. Up 1: it touches the palate. Back: where it is highest, 1 at the soft palate.
+    kTongueBodyUp,
+    kTongueBodyBack,
     kCount
 };
 inline constexpr int kKinematicCount = static_cast<int>(Kinematic::kCount);

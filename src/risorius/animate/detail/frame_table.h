@@ -6,7 +6,7 @@
 ///   excitation.<column>, activation.<column>    ratio, every column of the rig
 ///   emg:<column>                                with emg: simulated surface EMG, ratio of the maximum
 ///   AU1.l ... AU66                              intensity of each action unit in the script, ratio; track/unit_intensity.h
-///   jaw_open ... tongue_out                     kinematic channels, in the units of their names
+///   jaw_open ... tongue_body_back               kinematic channels, in the units of their names
 ///   jaw_turn_deg, incisor_opening_mm, condyle_slide_mm, incisor_side_mm    pose of the jaw, from channels or muscles: rotation about the
 ///                     hinge, lower incisors along the opening path, condyles forwards, lower incisors to the left
 ///   tooth_force_n     force on all teeth when muscles move the jaw, else 0

@@ -11,7 +11,7 @@ namespace risorius::scene {
 namespace {
 
 constexpr double kShown_mm = 100;  // height of the picture
-constexpr double kBefore_mm = 26;  // of the lips, in front of them
+constexpr double kBefore_mm = 20;  // of the lips, in front of them: a nose
 constexpr double kBesideTeeth_mm = 4;
 
 }  // namespace

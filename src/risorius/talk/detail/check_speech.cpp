@@ -21,7 +21,9 @@ constexpr double kOpenGap_mm = 0.5;
 // How far around a closure its contact and its opening are looked for
 constexpr double kBefore_s = 0.15, kAfter_s = 0.2;
 // Lateness that is left as it is, and the most that one pass changes
-constexpr double kLate_s = 0.010, kTooEarly_s = 0.025, kMaxEarlier_s = 0.03, kOpensLate_s = 0.017;
+constexpr double kLate_s = 0.010, kMaxEarlier_s = 0.03, kOpensLate_s = 0.017;
+// Lips that meet too early are too near in the sound before: it opens them further, at most to this beyond the plan.
+constexpr double kWiderBefore_mm = 1.5, kWidestBefore_mm = 4.5;
 constexpr double kDeeper = 2, kDeeperAtLeast_mm = 0.6, kDeepest_mm = 8;
 // The lips gain less than half of the time by which they begin earlier.
 constexpr double kEarlier = 2;
@@ -75,6 +77,9 @@ std::vector<ClosureCheck> check_closures(const MouthTrack& track, const PlacedUt
         check.phone = closure.first_phone;
         check.closure_s = placed.start_s + closure.closure_s;
         check.release_s = placed.start_s + closure.release_s;
+        check.from_rest =
+            closure.first_phone == 0 ||
+            placed.utterance.phones[static_cast<std::size_t>(closure.first_phone) - 1].is_pause();
         check.least_gap_mm = std::numeric_limits<double>::infinity();
         for (double t = check.closure_s; t <= check.release_s; t += kMouthStep_s / 2) {
             const double gap = track.at(t, &Mouth::gap);
@@ -168,9 +173,9 @@ ClosureChange change_for(const ClosureCheck& check, const ClosureChange& before)
     if (leaks || late_s > kLate_s) {
         const double over_s = std::isnan(check.contact_s) ? late_s : late_s - kLate_s / 2;
         change.earlier_s = std::clamp((leaks ? kEarlier : 1) * over_s, 0.0, kMaxEarlier_s);
-    } else if (late_s < -kTooEarly_s) {
+    } else if (late_s < -kInTime_s && !check.from_rest) {
         // What was too much of an earlier change; it may have shut the vowel before.
-        change.earlier_s = std::max(late_s + kTooEarly_s, -kMaxEarlier_s / 2);
+        change.earlier_s = std::max(late_s + kInTime_s, -kMaxEarlier_s / 2);
     }
     if (too_early)
         change.shorter_s = -std::min(early_s, kMaxEarlier_s);
@@ -184,13 +189,18 @@ ClosureChange change_for(const ClosureCheck& check, const ClosureChange& before)
 
 std::vector<ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
                                        std::vector<ClosureChange> before) {
+    const auto change_of = [&](int phone) {
+        return std::find_if(before.begin(), before.end(),
+                            [&](const ClosureChange& c) { return c.phone == phone; });
+    };
     for (const ClosureCheck& check : checks) {
-        const auto known = std::find_if(before.begin(), before.end(), [&](const ClosureChange& c) {
-            return c.phone == check.phone;
-        });
+        const auto known = change_of(check.phone);
         const ClosureChange change =
             change_for(check, known != before.end() ? *known : ClosureChange{});
         const bool stuck = check.held() && !(check.open_s < check.release_s + kStuck_s);
+        const bool near_before = check.held() && !check.from_rest &&
+                                 check.contact_s < check.closure_s - kInTime_s &&
+                                 (known == before.end() || known->earlier_s <= 0);
         if (change.deeper_mm == 0 && change.earlier_s == 0 && change.shorter_s == 0 && !stuck)
             continue;
         ClosureChange& to =
@@ -198,10 +208,17 @@ std::vector<ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
         to.deeper_mm = std::min(kDeepest_mm, to.deeper_mm + change.deeper_mm);
         to.earlier_s = std::clamp(to.earlier_s + change.earlier_s, 0.0, kEarliest_s);
         to.shorter_s = std::clamp(to.shorter_s + change.shorter_s, -kLongest_s, kShortest_s);
-        if (!stuck) continue;
-        // Lips that are pressed too hard, or held on to the next closure, do not part in time.
-        to.deeper_mm *= kLessDeep;
-        to.shorter_s = std::max(to.shorter_s, 0.0);
+        if (stuck) {
+            // Lips that are pressed too hard, or held on to the next closure, do not part in time.
+            to.deeper_mm *= kLessDeep;
+            to.shorter_s = std::max(to.shorter_s, 0.0);
+        }
+        if (!near_before) continue;
+        const auto sound = change_of(check.phone - 1);
+        double& wider_mm =
+            (sound != before.end() ? *sound : before.emplace_back(ClosureChange{check.phone - 1}))
+                .wider_mm;
+        wider_mm = std::min(kWidestBefore_mm, wider_mm + kWiderBefore_mm);
     }
     return before;
 }

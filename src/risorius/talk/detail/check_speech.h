@@ -4,6 +4,7 @@
 /// closure of the lips.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
@@ -31,6 +32,8 @@ MouthTrack simulate_mouth(face::Face& face, const track::Timeline& timeline, dou
 
 /// Lips are in contact below this gap, mm.
 inline constexpr double kContactGap_mm = 0.3;
+/// By how much they may meet too early or too late, s.
+inline constexpr double kInTime_s = 0.025;
 
 /// One closure of the lips as simulated. Times are those of the script, s.
 struct ClosureCheck {
@@ -41,8 +44,14 @@ struct ClosureCheck {
     double contact_s = 0, open_s = 0;     ///< NaN: none
     /// When the contact ends; `open_s` is a little later, when the lips are seen to be apart. NaN: unknown
     double closed_until_s = std::numeric_limits<double>::quiet_NaN();
+    bool from_rest = false;  ///< the first sound after a pause: the lips were shut before
     bool reached() const { return least_gap_mm < kContactGap_mm; }
     bool held() const { return max_gap_mm < kContactGap_mm; }
+    /// Whether the lips meet when they should: not much before the closure in the sound, and not much after it.
+    bool in_time() const {
+        return (from_rest && contact_s <= closure_s) ||
+               std::abs(contact_s - closure_s) <= kInTime_s;
+    }
 };
 
 std::vector<ClosureCheck> check_closures(const MouthTrack& track, const PlacedUtterance& placed);

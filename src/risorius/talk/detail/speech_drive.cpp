@@ -20,6 +20,8 @@ constexpr double kDigits = 1e4;
 constexpr double kRestTip = 0.2;
 // Tongue tip height 1 is the channel tongue_up at this value: the tip at the ridge, not curled back.
 constexpr double kTongueUp = 0.8;
+// The body at rest, and what is 1 on the channels: on the palate, and at the soft palate.
+constexpr double kRestBody = 0.3, kBackmost = 1;
 
 // What is left of a smile while lips have to close.
 constexpr double kExpressionInBounds = 0.15;
@@ -68,7 +70,8 @@ class SpeechDrive : public track::DriveSource {
         add_at(excitation_, t_s - excitation_start_s_,
                [&](long row, double value) { sum.excitation[row] += value; });
         static constexpr track::Kinematic kChannels[] = {
-            track::Kinematic::kJawOpen, track::Kinematic::kTongueUp, track::Kinematic::kTongueOut};
+            track::Kinematic::kJawOpen, track::Kinematic::kTongueUp, track::Kinematic::kTongueOut,
+            track::Kinematic::kTongueBodyUp, track::Kinematic::kTongueBodyBack};
         add_at(channels_, t_s - channels_start_s_, [&](long row, double value) {
             sum.kinematic[static_cast<std::size_t>(kChannels[row])] += value;
         });
@@ -179,7 +182,7 @@ std::shared_ptr<const track::DriveSource> drive_of(const ArticulationCurves& cur
                                                    InversionReport* report) {
     const long rows = rig.channels().column_count();
     Eigen::MatrixXd excitation = excitations_of(activations_of(curves, voice, rows), rig, report);
-    Eigen::MatrixXd channels(3, curves.size());
+    Eigen::MatrixXd channels(5, curves.size());
     for (long i = 0; i < curves.size(); ++i) {
         const auto value = [&](Parameter p) {
             return curves.values[static_cast<std::size_t>(p)][i];
@@ -191,6 +194,11 @@ std::shared_ptr<const track::DriveSource> drive_of(const ArticulationCurves& cur
         // Only what goes out between the teeth; the tip at the ridge is the channel above.
         channels(2, i) = rounded(std::clamp(
             (value(Parameter::kTipForward) - 2) / rig.facs.ranges.tongue_out_mm, 0.0, 1.0));
+        const auto body = [&](Parameter p, double most) {
+            return rounded(std::clamp((value(p) - kRestBody) / (most - kRestBody), -1.0, 1.0));
+        };
+        channels(3, i) = body(Parameter::kBodyHeight, speech::kPressedBody);
+        channels(4, i) = body(Parameter::kBodyBack, kBackmost);
     }
     const double begin_s = start_s + curves.start_s;
     std::vector<int> mouth;

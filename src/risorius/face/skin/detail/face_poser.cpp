@@ -100,6 +100,8 @@ FollowDrive FacePoser::follow_drive(const FaceMoment& moment,
             lids(moment.activation, drive, pull),
             drive.at(track::Kinematic::kTongueOut),
             drive.at(track::Kinematic::kTongueUp),
+            drive.at(track::Kinematic::kTongueBodyUp),
+            drive.at(track::Kinematic::kTongueBodyBack),
             head_motion(head_, drive)};
 }
 

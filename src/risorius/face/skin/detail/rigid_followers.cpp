@@ -221,7 +221,9 @@ void RigidFollowers::apply(const FollowDrive& drive, Points& vertices) const {
         const Vec3 rest = rest_.row(v).transpose();
         vertices.row(v) = (rest + fraction * (drive.mandible * rest - rest)).transpose();
     }
-    tongue_.place({drive.tongue_out, drive.tongue_up, drive.mandible}, vertices);
+    tongue_.place({drive.tongue_out, drive.tongue_up, drive.tongue_body_up, drive.tongue_body_back,
+                   drive.mandible},
+                  vertices);
     turn_head(drive.head, vertices);
 }
 

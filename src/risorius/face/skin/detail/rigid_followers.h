@@ -23,6 +23,7 @@ struct FollowDrive {
     std::array<Mat3, 2> gaze;            ///< rotation of each eye in the head
     std::array<LidPose, 2> lid;
     double tongue_out = 0, tongue_up = 0;  ///< see TongueDrive
+    double tongue_body_up = 0, tongue_body_back = 0;
     Rigid head = Rigid::Identity();        ///< motion from rest
 };
 

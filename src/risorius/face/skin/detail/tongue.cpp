@@ -88,6 +88,9 @@ Tongue::Tongue(const rig::Head& head, double range_m) : head_(head), range_m_(ra
         }
     }
     thickness_m_ = std::max(1e-4, high - low);
+    std::vector<double> middle_y;
+    for (const Vec3& p : rest_.point) middle_y.push_back(p.y());
+    body_ = TongueBody(head, back, front, sections(), middle_y);
 
     // Edges of the incisors: the foremost points on bone at the midline. Without teeth they lie behind the lips
     const Vec3 lips = 0.5 * (head.landmark("stos") + head.landmark("stoi"));
@@ -130,6 +133,33 @@ Tongue::Tongue(const rig::Head& head, double range_m) : head_(head), range_m_(ra
     };
     lower_lip_ = skin_at("stoi");
     upper_lip_ = skin_at("stos");
+}
+
+// An ellipse for each sample of the middle line: means of the vertices about it.
+std::vector<TongueSection> Tongue::sections() const {
+    std::vector<TongueSection> out(kPieces + 1);
+    for (int k = 0; k <= kPieces; ++k) {
+        TongueSection& section = out[static_cast<std::size_t>(k)];
+        const auto mean = [&](const auto& value, const auto& counts) {
+            double sum = 0, weight = 1e-12;
+            for (const Member& m : members_) {
+                const double off = m.along * kPieces - k, w = std::exp(-0.5 * off * off / 2);
+                if (!counts(m)) continue;
+                sum += w * value(m);
+                weight += w;
+            }
+            return sum / weight;
+        };
+        section.half_width = std::sqrt(2 * mean([](const Member& m) { return m.side * m.side; },
+                                                [](const Member&) { return true; }));
+        for (const double sign : {1.0, -1.0})
+            (sign > 0 ? section.top : section.bottom) =
+                mean([&](const Member& m) { return sign * m.up; },
+                     [&](const Member& m) {
+                         return sign * m.up > 0 && std::abs(m.side) < 0.5 * section.half_width;
+                     });
+    }
+    return out;
 }
 
 Tongue::Gate Tongue::teeth(const Rigid& mandible) const {
@@ -208,16 +238,21 @@ void Tongue::place(const TongueDrive& drive, Points& vertices) const {
             flat[i] = lies - engaged * (lies - flat[i]);
         }
     }
+    std::vector<TonguePoint> points;
     for (const Member& m : members_) {
         const double place = m.along * kPieces;
         const auto k = static_cast<std::size_t>(std::clamp(place, 0.0, kPieces - 1.0));
         const double t = place - static_cast<double>(k);
         const double thin = (1 - t) * flat[k] + t * flat[k + 1];
         const Vec3 ahead = line.tangent(m.along), up(0, ahead.z(), -ahead.y());
-        vertices.row(m.vertex) = (line.at(m.along) + m.side / std::sqrt(thin) * Vec3::UnitX() +
-                                  m.up * thin * up + m.ahead * ahead)
-                                     .transpose();
+        points.push_back({m.along, m.side, m.up,
+                          line.at(m.along) + m.side / std::sqrt(thin) * Vec3::UnitX() +
+                              m.up * thin * up + m.ahead * ahead});
     }
+    if (drive.body_up != 0 || drive.body_back != 0)
+        body_.raise(drive.body_up, drive.body_back, vertices, points);
+    for (std::size_t i = 0; i < members_.size(); ++i)
+        vertices.row(members_[i].vertex) = points[i].p.transpose();
 }
 
 }  // namespace risorius::face

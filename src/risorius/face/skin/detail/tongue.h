@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: MIT
 /// \file
 /// The tongue as a body that bends along its middle line. Its root is fixed, the rest moves with the mandible. It stretches forwards,
-/// raises or lowers its tip, and passes between teeth and lips. Where there is little room between them, it is flattened.
+/// raises or lowers its tip, and passes between teeth and lips. Where there is little room between them, it is flattened. Its body
+/// rises to the palate (tongue_body.h).
 #pragma once
 
 #include <vector>
 
 #include "risorius/core/types.h"
+#include "risorius/face/skin/detail/tongue_body.h"
 #include "risorius/rig/head.h"
 
 namespace risorius::face {
 
 /// What moves the tongue.
 struct TongueDrive {
-    double out = 0;  ///< protrusion / its range, 0..1
-    double up = 0;   ///< curl of the tip, -1..1; 1 raised, -1 lowered
+    double out = 0;        ///< protrusion / its range, 0..1
+    double up = 0;         ///< curl of the tip, -1..1; 1 raised, -1 lowered
+    double body_up = 0;    ///< -1..1; 1: its back touches the palate
+    double body_back = 0;  ///< -1..1; where the body is highest, 1 at the soft palate
     Rigid mandible = Rigid::Identity();
 };
 
@@ -47,12 +51,14 @@ class Tongue {
     };
     Gate teeth(const Rigid& mandible) const;
     Line bent(const TongueDrive& drive, double out) const;
+    std::vector<TongueSection> sections() const;
 
     const rig::Head& head_;
     double range_m_, length_m_ = 0, thickness_m_ = 0;
     Line rest_;
     std::vector<double> over_jaw_;  // per sample of the line, fraction of the mandible's motion
     std::vector<Member> members_;
+    TongueBody body_;
     Vec3 lower_edge_, upper_edge_;            // of the incisors
     std::vector<int> lower_lip_, upper_lip_;  // skin vertices at the landmarks stoi, stos
 };
