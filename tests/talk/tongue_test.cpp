@@ -118,8 +118,9 @@ double up_at(const track::Timeline& timeline, double t_s) {
 }
 
 TEST(SpokenTongue, TouchesThePalateInKAndGAndLeavesItInTheVowels) {
-    for (const auto& [before, stop, after] :
-         {std::tuple{"ɑ", "k", "ɑ"}, std::tuple{"ɑ", "ɡ", "u"}}) {
+    // In u the back of the tongue stays high, so that it leaves the palate slowly.
+    for (const auto& [before, stop, after, released_mm] :
+         {std::tuple{"ɑ", "k", "ɑ", 1.0}, std::tuple{"ɑ", "ɡ", "u", 0.2}}) {
         const track::Timeline said = vcv(before, stop, after);
         for (const double t_s :
              {kBodyClosure_s + 0.01, kBodyClosure_s + 0.05, kBodyRelease_s - 0.012}) {
@@ -129,7 +130,8 @@ TEST(SpokenTongue, TouchesThePalateInKAndGAndLeavesItInTheVowels) {
         }
         EXPECT_GT(tongue_in_mouth().gap_mm(tongue_in_mouth().at(said, kBodyClosure_s - 0.1)), 10)
             << stop;
-        EXPECT_GT(tongue_in_mouth().gap_mm(tongue_in_mouth().at(said, kBodyRelease_s + 0.05)), 0.3)
+        EXPECT_GT(tongue_in_mouth().gap_mm(tongue_in_mouth().at(said, kBodyRelease_s + 0.05)),
+                  released_mm)
             << stop;
         EXPECT_GT(
             tongue_in_mouth().gap_mm(tongue_in_mouth().at(said, kBodyClosure_s + 0.12 + 0.13)), 1.5)

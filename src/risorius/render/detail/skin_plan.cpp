@@ -161,6 +161,8 @@ void round_front(std::array<double, SkinPlan::kHairlineSteps>& hairline) {
     }
 }
 
+constexpr double kBand_mm = 6;
+
 void plan_hairline(const Marks& marks, const Vec3& centre, const Appearance& appearance,
                    SkinPlan& plan) {
     plan.hairline.fill(2.0);
@@ -177,8 +179,11 @@ void plan_hairline(const Marks& marks, const Vec3& centre, const Appearance& app
     // Higher on the forehead is also farther back; the map only knows the direction from the middle of the head.
     const HairlineForm& form = hairline_form(appearance.hairline_form);
     const double temples_mm = appearance.temples_mm + form.temples_mm;
+    // Locks grow from a band that begins behind the border of the skin that shows hair.
+    const LockStyle* style = lock_style(appearance.hair_style);
+    const double lower_mm = style && !style->ring ? kBand_mm : 0;
     const Vec3 up(0, 0.75, -0.65),
-        higher = 1e-3 * (appearance.hairline_mm + form.higher_mm) * up,
+        higher = 1e-3 * (appearance.hairline_mm + form.higher_mm - lower_mm) * up,
         bay = higher + 1e-3 * temples_mm * Vec3(0, 0.7, -0.7) + 1e-3 * form.bay_mm * up,
         side_bay = 0.4 * higher + 1e-3 * temples_mm * Vec3(0, 0.3, -0.6);
     const Vec3 crown = front[0] + higher + 1e-3 * form.middle_mm * up, &temple_l = front[1],
@@ -211,7 +216,7 @@ void plan_hairline(const Marks& marks, const Vec3& centre, const Appearance& app
         const double t = b.angle > a.angle ? (angle - a.angle) / (b.angle - a.angle) : 0.0;
         plan.hairline[static_cast<std::size_t>(i)] = a.radius + t * (b.radius - a.radius);
     }
-    if (lock_style(appearance.hair_style)) round_front(plan.hairline);
+    if (style) round_front(plan.hairline);
 }
 
 }  // namespace
