@@ -51,9 +51,9 @@ std::unique_ptr<io::MorphModel> MorphHair::bald_;
 TEST_F(MorphHair, EveryStyleIsANodeBelowTheHeadWithItsCards) {
     // Triangles of the cards and of the cap on the adult
     const std::map<std::string, std::pair<long, long>> kTriangles{
-        {"crop", {6908, 3720}},     {"short_parted", {5570, 3720}}, {"curly_short", {14954, 3720}},
-        {"afro", {15762, 3720}},    {"bob", {7724, 3720}},          {"long_tied", {18076, 3720}},
-        {"bald_fringe", {2870, 0}},
+        {"crop", {7012, 3720}},     {"short_parted", {5590, 3720}}, {"curly_short", {15184, 3720}},
+        {"afro", {15944, 3720}},    {"bob", {7620, 3720}},          {"long_tied", {18392, 3720}},
+        {"bald_fringe", {2900, 0}},
     };
     for (const std::string& style : render::hair_style_names()) {
         const io::MorphModel model = with_hair(style);

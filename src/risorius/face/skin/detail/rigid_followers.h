@@ -24,7 +24,7 @@ struct FollowDrive {
     std::array<LidPose, 2> lid;
     double tongue_out = 0, tongue_up = 0;  ///< see TongueDrive
     double tongue_body_up = 0, tongue_body_back = 0;
-    Rigid head = Rigid::Identity();        ///< motion from rest
+    Rigid head = Rigid::Identity();  ///< motion from rest
 };
 
 /// The parts of one head that follow.
