@@ -163,9 +163,9 @@ def viewers():
     pairs = told["pairs"]
     lines += [
         "",
-        f"Two such viewers saw pairs, one picture of a person as drawn first and one of a named person of now, and chose the more believable one: "
-        f"{pairs['now_preferred']} of {pairs['asked']} times that of now; 9 of 10 is the aim. For those of now they named hair, clothes, beards and character; "
-        "against them, hair like rope or a helmet, lumps and steps at the corner of the jaw, swollen lips, red patches, and beards like a grey smear.",
+        f"Three such viewers saw 20 pairs each, one picture of a person as drawn first and one of a named person of now, and chose the more believable one: "
+        f"{pairs['now_preferred']} of {pairs['asked']} times that of now; 9 of 10 is the aim. For those of now they named beards, brows, folds and character; "
+        "against them, hair like a helmet with gaps and ragged ends, foreheads that are too high, swollen lids and lips, and skin like wax.",
         "",
         "Upper row: eight people that the program drew at first. Lower row: the people of seeds 1 to 8.",
         "",

@@ -11,7 +11,8 @@
 /// the globe's centre, so that globes keep their
 /// form and lids their distance. Then lid handles slide the lids over the globe, and near and corner handles move what lies in front of it, which keeps 0.6 of its
 /// distance at least. The map is smooth and, within the ranges of identity.h,
-/// one-to-one, so a mesh without self-intersections stays free of them.
+/// one-to-one, so a mesh without self-intersections stays free of them. Last, steps in the skin of a person of the population are eased
+/// (skin_steps.h).
 #pragma once
 
 #include "risorius/headmodel/detail/head_model.h"
