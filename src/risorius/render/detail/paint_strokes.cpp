@@ -46,10 +46,9 @@ class StrokePad {
     std::vector<StrokeVertex> vertices_;
 };
 
-/// Each hair is white or dark, linear. `draw`: any random number of the hair
+/// Tone of one short hair, linear; see is_white_hair()
 Vec3 tone_of_hair(const Appearance& appearance, double draw, double whites) {
-    const double fate = 37 * draw - std::floor(37 * draw);
-    return linear_from_srgb(fate < whites ? kWhiteHair : dark_hair_tone(appearance));
+    return linear_from_srgb(is_white_hair(draw, whites) ? kWhiteHair : dark_hair_tone(appearance));
 }
 
 /// The ground of a brow: shadows of its hairs and the finest hairs.

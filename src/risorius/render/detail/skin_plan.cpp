@@ -144,7 +144,6 @@ void plan_beard(const Marks& marks, const Appearance& appearance, SkinPlan& plan
         }
 }
 
-/// Hair grows outside a closed curve on the map: over the forehead through the landmarks, in front of the ears, to the nape.
 /// Takes the corners out of the front of a hairline, which would show as a notch in the middle. Sideburns and nape stay as they are.
 void round_front(std::array<double, SkinPlan::kHairlineSteps>& hairline) {
     constexpr int kPasses = 2, kFront = 6;  // steps to each side of the middle
@@ -161,8 +160,7 @@ void round_front(std::array<double, SkinPlan::kHairlineSteps>& hairline) {
     }
 }
 
-constexpr double kBand_mm = 6;
-
+/// Hair grows outside a closed curve on the map: over the forehead through the landmarks, in front of the ears, to the nape.
 void plan_hairline(const Marks& marks, const Vec3& centre, const Appearance& appearance,
                    SkinPlan& plan) {
     plan.hairline.fill(2.0);
@@ -179,9 +177,10 @@ void plan_hairline(const Marks& marks, const Vec3& centre, const Appearance& app
     // Higher on the forehead is also farther back; the map only knows the direction from the middle of the head.
     const HairlineForm& form = hairline_form(appearance.hairline_form);
     const double temples_mm = appearance.temples_mm + form.temples_mm;
-    // Locks grow from a band that begins behind the border of the skin that shows hair.
+    // Locks leave the outermost millimetres of their ground bare, so that their ground begins lower on the forehead.
+    constexpr double kBare_mm = 6;
     const LockStyle* style = lock_style(appearance.hair_style);
-    const double lower_mm = style && !style->ring ? kBand_mm : 0;
+    const double lower_mm = style && !style->ring ? kBare_mm : 0;
     const Vec3 up(0, 0.75, -0.65),
         higher = 1e-3 * (appearance.hairline_mm + form.higher_mm - lower_mm) * up,
         bay = higher + 1e-3 * temples_mm * Vec3(0, 0.7, -0.7) + 1e-3 * form.bay_mm * up,
@@ -256,6 +255,10 @@ double beard_density(const SkinPlan& plan, const Vec3& rest) {
             std::exp(-0.5 * (rest - zone.centre).squaredNorm() / (zone.spread_m * zone.spread_m));
     const double t = std::clamp((sum - 0.2) / 0.65, 0.0, 1.0);
     return t * t * (3 - 2 * t);
+}
+
+bool is_white_hair(double draw, double whites) {
+    return 37 * draw - std::floor(37 * draw) < whites;
 }
 
 double white_share(const Appearance& appearance) {

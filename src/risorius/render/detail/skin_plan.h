@@ -63,6 +63,8 @@ inline double white_share_of_beard(const Appearance& appearance) {
 inline double white_share_of_brows(const Appearance& appearance) {
     return 0.75 * white_share_of_beard(appearance);
 }
+/// Whether a short hair is white. `draw`: any random number of the hair; its further digits decide
+bool is_white_hair(double draw, double whites);
 
 /// Tone of short hair (brows, beard, stubble) with its white hairs.
 Vec3 hair_tone_at(const Appearance& appearance);

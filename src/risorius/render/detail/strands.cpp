@@ -257,8 +257,7 @@ std::vector<Strand> plan_brows(const Scene& scene, const SkinPlan& plan, const V
             Strand strand;
             strand.root = *root;
             strand.width_m = (0.000085 + 0.00003 * random.next()) * (0.45 + 0.55 * hair.density);
-            const double fate = 37 * shade - std::floor(37 * shade);
-            strand.shade = shade * (fate < whites ? white : dark);
+            strand.shade = shade * (is_white_hair(shade, whites) ? white : dark);
             const Mat3 frame = skin_frame(*root, scene.rest);
             Vec3 along = (ahead->on(scene.rest) - root->on(scene.rest)).normalized();
             Vec3 out = frame.col(2);
