@@ -17,6 +17,13 @@ Vec3 encoded(const Vec3& colour) {
     return colour.unaryExpr([](double c) { return std::round(1e4 * srgb_of_linear(c)) / 1e4; });
 }
 
+/// What a matt surface does not mirror it scatters, so that its colour is paler: of the light that it reflects, this share.
+Vec3 powdered(const Vec3& skin, double gloss) {
+    constexpr double kScattered = 0.6;
+    const double paler = kScattered * kSurface * std::max(1 - gloss, 0.0);
+    return encoded(skin.unaryExpr([&](double c) { return linear_of_srgb(c) + paler; }));
+}
+
 }  // namespace
 
 double typology_angle_deg(const Vec3& tone) {
@@ -38,6 +45,7 @@ SkinColours skin_colours(const Identity& identity, const DesignTables& tables) {
     SkinColours colours;
     if (identity.melanin) {
         colours = skin_colours(*identity.melanin, identity.haemoglobin, tables);
+        colours.skin = powdered(colours.skin, identity.hairdo.skin_gloss);
     } else {
         const Vec3& skin = tables.tones.at("skin").at(identity.skin);
         colours = {skin, tables.tones.at("lips").at(identity.skin), typology_angle_deg(skin)};

@@ -107,8 +107,9 @@ Vec3 LockGround::flow(const Vec3& at) const {
         case HairFlow::kParting: {
             const double side = from.x() < parting_m_ ? -1 : 1;
             const double behind = ramp(-0.01, -0.07, from.z());
+            // Hanging hair comes forward as far as the temples, and frames the face.
             way =
-                Vec3(side * (1 - 0.75 * behind), -0.25 - 0.9 * behind, style_.hangs ? -0.10 : 0.25);
+                Vec3(side * (1 - 0.75 * behind), -0.25 - 0.9 * behind, style_.hangs ? 0.34 : 0.25);
             break;
         }
         case HairFlow::kRadial:

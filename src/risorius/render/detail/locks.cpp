@@ -107,7 +107,7 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
         if (i > 0) along_m += (guide.points[i] - guide.points[i - 1]).norm();
         const double width = half * taper(s, guide.edge, style.tip);
         // Deep between the roots it is dark.
-        const double root_lit = guide.edge || guide.fringe ? 0.85 : 0.68;
+        const double root_lit = style.hangs ? 0.88 : guide.edge || guide.fringe ? 0.85 : 0.68;
         const double lit = (root_lit + (1 - root_lit) * soft_step(0, 0.4, s)) *
                            (tuft ? 0.60 + 0.40 * guide.layer : 0.76 + 0.24 * guide.layer);
         for (std::size_t column = 0; column < columns; ++column) {
@@ -186,7 +186,7 @@ void cover_skin(const LockGround& ground, const Scene& scene, const Vec3& ahead,
 
 void add_cap(const LockGround& ground, const LockStyle& style, const Scene& scene, Hair& hair) {
     if (style.ring) return;
-    constexpr double kInside_m = 0.004, kTurn = 0.012;
+    constexpr double kInside_m = 0.0055, kTurn = 0.012;
     const Vec3 pole = ground.whorl(), centre = ground.head().centre(),
                right = pole.cross(Vec3::UnitZ()).normalized(), ahead = right.cross(pole);
     if (!ground.grows(pole, kInside_m)) return;

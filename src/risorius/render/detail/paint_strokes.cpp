@@ -81,7 +81,7 @@ bool on_bald_crown(const SkinPlan& plan, const Vec2& place, const Vec3& centre) 
 void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const EarMask& ears,
            RandomSequence& random, StrokePad& pad) {
     const double scalp_hair = scalp_paint(scene.appearance);
-    const bool capped = scene.appearance.hair_style != "shaven";
+    const bool capped = has_cap(scene.appearance, plan);
     if (scalp_hair <= 0 || plan.hairline[0] > 1) return;
     // Roots follow the low-discrepancy sequence of the plastic number (Roberts 2018); plain random points leave bald spots and
     // clusters.
@@ -101,8 +101,8 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
         // The hairline is ragged, and thins out over a centimetre.
         // Over forehead and temples roots stand closer, and break the border of a cap of locks.
         const double front = capped ? std::clamp((root.y() - 0.5) / 0.08, 0.0, 1.0) : 0.0;
-        const double inside = (1 + 0.7 * front) * (radius - hairline_radius(plan, root)) / 0.034;
-        const double thick = std::clamp(inside + 0.22 + 0.20 * front, 0.0, 1.0);
+        const double inside = (1 + front) * (radius - hairline_radius(plan, root)) / 0.034;
+        const double thick = std::clamp(inside + 0.22 + 0.38 * front, 0.0, 1.0);
         if (keep > thick * thick * (3 - 2 * thick)) continue;
         if (on_bald_crown(plan, root, centre)) continue;
         Vec2 away = root - whorl;
@@ -116,7 +116,7 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
         pad.add(root, root + kMapPerMetre * length * direction, kMapPerMetre * 0.00014,
                 hair * (0.65 + 0.6 * shade),
                 std::min(1.0, 1.3 * scalp_hair) * (0.45 + 0.45 * length_draw) *
-                    std::clamp(0.35 + inside, 0.0, 1.0));
+                    std::clamp(0.35 + 0.35 * front + inside, 0.0, 1.0));
     }
 }
 

@@ -47,7 +47,7 @@ void main() {
     dark = tone * light;
     white = white_tone * light;
     vec3 gloss = key_card.rgb * (lamp * highlight(second, h, 18.0)) + 0.35 * rim * highlight(t, back, 18.0);
-    shine = gloss * (0.75 * tone + 0.012) + key_card.rgb * (0.045 * lamp * highlight(first, h, 60.0)) + 0.009 * light;
+    shine = gloss * (0.85 * tone + 0.020) + key_card.rgb * (0.07 * lamp * highlight(first, h, 60.0)) + 0.009 * light;
     grey = in_light.z;
     position = in_position;
     strand = in_strand;

@@ -37,6 +37,7 @@ out vec4 colour;
 uniform vec3 skin_tone, lip_tone, hair_tone;   // linear
 uniform float scalp_hair, seed, age, mottling, beard, white_beard, trimmed;
 uniform float ring;             // the crown is bald above it, m
+uniform vec2 hair_begins;       // distances outside the hairline where its tone begins and is full, of the map
 uniform vec4 beard_place[16];   // m, 1 / (2 spread^2)
 uniform int beard_places;
 uniform int lip_points;
@@ -87,14 +88,14 @@ void main() {
     tint += blood * vec3(0.00, -0.060, -0.045) + pigment * vec3(-0.030, -0.040, -0.050) + grain * 0.05;
     // Sun and years leave the colour uneven: patches of one and of half a centimetre, and grain
     float uneven = noise(p * 0.17 + 410.0) + noise(p * 0.42 + 430.0) - 1.0;
-    float fine = noise(p * 1.1 + 450.0) - 0.5;
+    float fine = noise(p * 1.1 + 450.0) - 0.5;     // of pores and grain
     float dark = clamp((0.30 - dot(skin_tone, vec3(0.2126, 0.7152, 0.0722))) / 0.25, 0.0, 1.0);   // gloss hides the colour
-    tint += (1.0 + 0.7 * dark) * mottling * (uneven * vec3(-0.17, -0.26, -0.30) + fine * vec3(-0.08, -0.11, -0.12));
+    tint += (1.0 + 0.7 * dark) * mottling * (uneven * vec3(-0.13, -0.20, -0.23) + fine * vec3(-0.12, -0.16, -0.18) + grain * 0.10);
     vec3 albedo = skin_tone * exp(tint);
 
     vec2 from_middle = place - 0.5;
     float r = length(from_middle);
-    float hair = smoothstep(-0.010, 0.042, r - hair_start(from_middle) + 0.016 * (noise(p * 0.30 + 3.0) - 0.5) + 0.008 * (noise(p * 0.9 + 33.0) - 0.5));
+    float hair = smoothstep(hair_begins.x, hair_begins.y, r - hair_start(from_middle) + 0.016 * (noise(p * 0.30 + 3.0) - 0.5) + 0.008 * (noise(p * 0.9 + 33.0) - 0.5));
     hair *= 1.0 - smoothstep(-0.008, 0.006, rest.y + 0.20 * rest.z - ring + 0.010 * (noise(p * 0.5 + 21.0) - 0.5));
     for (int i = 0; i < 2; ++i) {
         if (any(lessThan(rest, ear_low[i].xyz)) || any(greaterThan(rest, ear_high[i].xyz))) continue;

@@ -28,6 +28,11 @@ void set_plan(const GlProgram& program, const SkinPlan& plan, const Appearance& 
     colour("hair_tone", linear_from_srgb(hair_tone_at(appearance)));
     glUniform1f(program.location("scalp_hair"), static_cast<float>(scalp_paint(appearance)));
     glUniform1f(program.location("ring"), static_cast<float>(plan.ring_m));
+    // Below a cap of locks the skin is dark up to its border, or that would show as a line.
+    if (has_cap(appearance, plan))
+        glUniform2f(program.location("hair_begins"), -0.012F, 0.014F);
+    else
+        glUniform2f(program.location("hair_begins"), -0.010F, 0.042F);
     glUniform1f(program.location("seed"), static_cast<float>(appearance.seed % 1000));
 
     std::vector<float> place, log_tint, oil;

@@ -285,6 +285,11 @@ Vec3 lip_tone_at(const Appearance& appearance) {
         .cwiseMin(1.0);
 }
 
+bool has_cap(const Appearance& appearance, const SkinPlan& plan) {
+    const LockStyle* style = lock_style(appearance.hair_style);
+    return style && !style->ring && plan.hairline[0] <= 1;
+}
+
 double scalp_paint(const Appearance& appearance) {
     constexpr double kBetweenLocks = 0.85;
     return lock_style(appearance.hair_style) ? std::max(appearance.scalp_hair, kBetweenLocks)

@@ -74,6 +74,9 @@ Vec3 dark_hair_tone(const Appearance& appearance);
 /// Tone of the lips with what the complexion adds, linear.
 Vec3 lip_tone_at(const Appearance& appearance);
 
+/// Whether the scalp lies under a cap of locks.
+bool has_cap(const Appearance& appearance, const SkinPlan& plan);
+
 /// How dark the scalp is painted, 0..1. Between locks it is as dark as their roots.
 double scalp_paint(const Appearance& appearance);
 
