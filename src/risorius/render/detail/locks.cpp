@@ -15,9 +15,8 @@ namespace {
 
 // Size of the texture of strands on a head
 constexpr double kStrandsAcross_m = 0.050, kStrandsAlong_m = 0.140;
-/// Height of the middle of a lock over its sides, and lean of the normal at them, ratios to half its width. Combed hair is lit as
-/// the sheet that its locks lie in, or each would look like a cord.
-constexpr double kRoof = 0.35, kRound = 0.75, kCombedRound = 0.2;
+/// Height of the middle of a lock over its sides, and lean of the normal at them, ratios to half its width
+constexpr double kRoof = 0.35, kRound = 0.75;
 
 double soft_step(double from, double to, double x) {
     const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
@@ -28,6 +27,14 @@ double soft_step(double from, double to, double x) {
 double taper(double s, bool edge, double tip) {
     const double root = edge ? 0.06 : 0.10;
     return (root + (1 - root) * soft_step(0, 0.22, s)) * (1 - (1 - tip) * soft_step(0.5, 1.0, s));
+}
+
+/// The way of combed hair, for its light. Beside the parting it turns from one side to the other, or there would be a step of light.
+Vec3 combed_along(const Vec3& along, const Vec3& out, const Vec3& at, double parting_m) {
+    constexpr double kTurns_m = 0.060;
+    const Vec3 down(0, -0.35, 1);
+    const double aside = soft_step(0.0, kTurns_m, std::abs(at.x() - parting_m));
+    return (aside * along + (1 - aside) * (down - out * out.dot(down))).normalized();
 }
 
 /// What differs from lock to lock, each 0..1.
@@ -89,12 +96,13 @@ std::vector<std::size_t> rows_kept(const std::vector<HairVertex>& lock, std::siz
     return kept;
 }
 
-void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
+/// Combed locks are lit as the sheet that they lie in, or each would look like a ribbon.
+void add_lock(const LockGuide& guide, const LockStyle& style, double parting_m, const Vec3& root,
               const LockChance& chance, RandomSequence& random, Hair& hair) {
     const std::size_t rows = guide.points.size(), columns = static_cast<std::size_t>(style.across);
     std::vector<HairVertex> lock;
-    const bool tuft = style.flow == HairFlow::kRadial;
-    const double round = style.flow == HairFlow::kParting ? kCombedRound : kRound;
+    const bool tuft = style.flow == HairFlow::kRadial, combed = style.flow == HairFlow::kParting;
+    const double shade = combed ? 0.06 : 0.16;  // from lock to lock
     const double half = 0.5e-3 * style.width_mm * guide.width * (0.75 + 0.5 * chance.tone);
     double along_m = kStrandsAlong_m * chance.along;
     hair.roots.push_back(guide.root);
@@ -107,9 +115,11 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
         if (i > 0) along_m += (guide.points[i] - guide.points[i - 1]).norm();
         const double width = half * taper(s, guide.edge, style.tip);
         // Deep between the roots it is dark.
-        const double root_lit = style.hangs ? 0.88 : guide.edge || guide.fringe ? 0.85 : 0.68;
+        const double root_lit = combed ? 0.95 : guide.edge ? 0.85 : 0.68;
         const double lit = (root_lit + (1 - root_lit) * soft_step(0, 0.4, s)) *
-                           (tuft ? 0.60 + 0.40 * guide.layer : 0.76 + 0.24 * guide.layer);
+                           (tuft     ? 0.60 + 0.40 * guide.layer
+                            : combed ? 0.92 + 0.08 * guide.layer
+                                     : 0.76 + 0.24 * guide.layer);
         for (std::size_t column = 0; column < columns; ++column) {
             const double at =
                 2.0 * static_cast<double>(column) / static_cast<double>(columns - 1) - 1;
@@ -117,13 +127,17 @@ void add_lock(const LockGuide& guide, const LockStyle& style, const Vec3& root,
             v.root = hair.roots.size() - 1;
             v.offset = guide.points[i] + at * width * side +
                        kRoof * width * (1 - std::abs(at)) * out - root;
-            v.along = along;
+            v.along = combed && !guide.fringe
+                          ? combed_along(along, guide.out[i], guide.points[i], parting_m)
+                          : along;
             // Tufts are lit as the whole of them is, not strip by strip.
-            v.out = tuft ? (guide.out[i] + 0.4 * out).normalized()
-                         : (out + round * at * side).normalized();
+            v.out = tuft     ? (guide.out[i] + 0.4 * out).normalized()
+                    : combed ? guide.out[i]
+                             : (out + kRound * at * side).normalized();
             v.strand = {chance.across + at * width / kStrandsAcross_m, along_m / kStrandsAlong_m};
             v.lit = lit;
-            v.tone = (0.92 + 0.16 * chance.tone) * (0.85 + 0.25 * s);
+            v.tone =
+                (1 + shade * (chance.tone - 0.5)) * (combed ? 0.92 + 0.12 * s : 0.85 + 0.25 * s);
             v.grey = guide.grey;
             lock.push_back(v);
         }
@@ -217,6 +231,8 @@ void add_cap(const LockGround& ground, const LockStyle& style, const Scene& scen
                                          d;
             v.offset = at - place->on(scene.rest);
             v.along = ground.flow(at);
+            if (style.flow == HairFlow::kParting)
+                v.along = combed_along(v.along, d, at, ground.parting_m());
             v.out = d;
             v.strand = style.flow == HairFlow::kParting
                            ? Vec2(at.z() / kStrandsAcross_m,
@@ -285,7 +301,7 @@ Hair plan_hair(const Scene& scene, const SkinPlan& plan, const Vec3& paint_centr
                      [](const LockGuide& a, const LockGuide& b) { return a.layer > b.layer; });
     for (const LockGuide& guide : guides) {
         const LockChance chance{random.next(), random.next(), random.next()};
-        add_lock(guide, style, guide.root.on(scene.rest), chance, random, hair);
+        add_lock(guide, style, ground.parting_m(), guide.root.on(scene.rest), chance, random, hair);
     }
     add_casters(hair);
     add_cap(ground, style, scene, hair);

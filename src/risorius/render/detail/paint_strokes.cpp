@@ -8,6 +8,7 @@
 
 #include "risorius/render/detail/complexion.h"
 #include "risorius/render/detail/gl_context.h"
+#include "risorius/render/detail/lock_style.h"
 #include "risorius/render/detail/shader_paint.h"
 #include "risorius/render/detail/skin_paint.h"
 #include "risorius/render/detail/strand_texture.h"
@@ -81,7 +82,9 @@ bool on_bald_crown(const SkinPlan& plan, const Vec2& place, const Vec3& centre) 
 void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const EarMask& ears,
            RandomSequence& random, StrokePad& pad) {
     const double scalp_hair = scalp_paint(scene.appearance);
-    const bool capped = has_cap(scene.appearance, plan);
+    // Combed locks begin at the border and hide it.
+    const LockStyle* style = lock_style(scene.appearance.hair_style);
+    const bool bordered = has_cap(scene.appearance, plan) && style->flow != HairFlow::kParting;
     if (scalp_hair <= 0 || plan.hairline[0] > 1) return;
     // Roots follow the low-discrepancy sequence of the plastic number (Roberts 2018); plain random points leave bald spots and
     // clusters.
@@ -100,7 +103,7 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
         const Vec2 root = Vec2(0.5, 0.5) + radius * Vec2(std::sin(turn), std::cos(turn));
         // The hairline is ragged, and thins out over a centimetre.
         // Over forehead and temples roots stand closer, and break the border of a cap of locks.
-        const double front = capped ? std::clamp((root.y() - 0.5) / 0.08, 0.0, 1.0) : 0.0;
+        const double front = bordered ? std::clamp((root.y() - 0.5) / 0.08, 0.0, 1.0) : 0.0;
         const double inside = (1 + front) * (radius - hairline_radius(plan, root)) / 0.034;
         const double thick = std::clamp(inside + 0.22 + 0.38 * front, 0.0, 1.0);
         if (keep > thick * thick * (3 - 2 * thick)) continue;
