@@ -147,7 +147,9 @@ void beard(const Scene& scene, const SkinPlan& plan, const Vec3& centre,
                 t = 1 - t;
             }
             const Vec3 root = a + s * u + t * v;
-            if (inside_lips(plan, root)) continue;
+            if (inside_lips(plan, root) || plan.ears[0].has_beside(root) ||
+                plan.ears[1].has_beside(root))
+                continue;
             const Vec3 down = (Vec3(0.9 * (turn - 0.5) + 2.5 * root.x(), -1, 0.0)).normalized();
             const Vec2 from = paint_place(root, centre);
             const Vec2 to = paint_place(

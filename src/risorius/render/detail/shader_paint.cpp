@@ -97,12 +97,14 @@ void main() {
     float r = length(from_middle);
     float hair = smoothstep(hair_begins.x, hair_begins.y, r - hair_start(from_middle) + 0.016 * (noise(p * 0.30 + 3.0) - 0.5) + 0.008 * (noise(p * 0.9 + 33.0) - 0.5));
     hair *= 1.0 - smoothstep(-0.008, 0.006, rest.y + 0.20 * rest.z - ring + 0.010 * (noise(p * 0.5 + 21.0) - 0.5));
+    float before_ears = 1.0;
     for (int i = 0; i < 2; ++i) {
         if (any(lessThan(rest, ear_low[i].xyz)) || any(greaterThan(rest, ear_high[i].xyz))) continue;
         vec3 from_top = ear_high[i].xyz - rest;
         float out_of = abs(rest.x) - ear_low[i].w - ear_high[i].w * (from_top.z + max(0.0, rest.y));
         float bowl = smoothstep(0.010, 0.020, from_top.y) * smoothstep(0.034, 0.028, from_top.z) * smoothstep(0.0, 0.005, from_top.z);
         hair *= smoothstep(0.002, -0.001, out_of) * (1.0 - bowl);
+        before_ears *= smoothstep(0.004, 0.0, from_top.z);
     }
     vec3 under_hair = mix(albedo, hair_tone, 0.88) * vec3(0.88, 0.90, 0.93);
     albedo = mix(albedo, under_hair, hair * scalp_hair);
@@ -116,7 +118,7 @@ void main() {
         vec3 d = rest - beard_place[i].xyz;
         shadow += exp(-dot(d, d) * beard_place[i].w);
     }
-    shadow = beard * smoothstep(0.25, 0.85, shadow + 0.25 * (noise(p * 0.5 + 11.0) - 0.5));
+    shadow = beard * before_ears * smoothstep(0.25, 0.85, shadow + 0.25 * (noise(p * 0.5 + 11.0) - 0.5));
     vec3 roots = albedo * mix(vec3(0.62, 0.66, 0.72), vec3(0.92, 0.94, 0.97), white_beard);
     albedo = mix(albedo, mix(roots, hair_tone, (0.35 + 0.35 * trimmed) * (1.0 - 0.6 * white_beard)), (0.55 + 0.25 * trimmed) * shadow);
     oil *= 1.0 - 0.4 * shadow;

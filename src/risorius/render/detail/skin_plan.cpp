@@ -248,6 +248,12 @@ bool EarRegion::contains(const Vec3& p) const {
            std::abs(p.x()) > out_m + lean * (high.z() - p.z()) + lean * std::max(0.0, p.y());
 }
 
+bool EarRegion::has_beside(const Vec3& p) const {
+    constexpr double kBehindFront_m = 0.002;
+    return known && (p.array() >= low.array()).all() && (p.array() <= high.array()).all() &&
+           p.z() < high.z() - kBehindFront_m;
+}
+
 double beard_density(const SkinPlan& plan, const Vec3& rest) {
     double sum = 0;
     for (const SkinZone& zone : plan.beard)

@@ -28,6 +28,8 @@ struct EarRegion {
     double out_m = 0.0;  ///< |x| of the plane at the front of the box
     double lean = 0.0;   ///< increase of that |x| per metre backwards and upwards
     bool contains(const Vec3& p) const;
+    /// Whether the point lies in the box, behind its front: on the ear, its lobe, or the head below them, where no beard grows.
+    bool has_beside(const Vec3& p) const;
 };
 
 struct SkinPlan {
