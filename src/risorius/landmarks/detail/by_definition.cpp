@@ -56,7 +56,7 @@ std::optional<Vec3> corner_near(const FrontRays& rays, const Corner& corner, con
 }
 
 constexpr double kLidAside_m =
-    7e-3;                            // of a guess: columns in which the edge of a lid is looked for
+    9e-3;                            // of a guess: columns in which the edge of a lid is looked for
 constexpr double kLidOver_m = 5e-3;  // rows above and below it
 constexpr double kLidFlat_m = 0.2e-3;  // columns whose edge is as near to the highest are its top
 
@@ -174,7 +174,7 @@ std::map<std::string, Vec3> found_in_front(const ShownHead& head,
         const auto guess = at.find(id);
         if (guess == at.end()) continue;
         if (const auto found = lid_top_near(rays, guess->second, sign))
-            out[id] = head.skin_tree.closest(*found)->point;
+            out[id] = head.skin_tree.closest(0.5 * (*found + guess->second))->point;
     }
     // Where the comparison misses the mouth, it misses the borders of the lips alike
     Vec3 shift = Vec3::Zero();
