@@ -104,6 +104,8 @@ constexpr double kAround_m = 5.5e-3;  // of a guess in which an extremal point i
 // The same of a ridge. One that is as far from the guess has to turn by so much more: the borders of lips turn by 20 to 80 degrees, and where
 // lips are thin, the comparison is off by up to 6.6 mm.
 constexpr double kAroundRidge_m = 8e-3, kFar_m = 6e-3, kTurnOfFar_deg = 25;
+constexpr double kLeastRidge_deg = 10;
+constexpr double kRoll_m = 4.2e-3;  // the roll of a lip is nearer to where the lips meet
 
 /// The profile around a point of the midline, from above, as seen from the front.
 std::vector<Vec3> profile_near(const FrontRays& rays, const Vec3& near, double around) {
@@ -124,24 +126,35 @@ std::vector<Vec3> profile_near(const FrontRays& rays, const Vec3& near, double a
     return out;
 }
 
-/// The ridge of the profile near a guess: where it turns most.
-std::optional<Vec3> ridge_near(const FrontRays& rays, const Vec3& guess) {
+/// The ridge of the profile near a guess: where it turns most. `lips`: where they meet; the roll of a lip is a ridge, too.
+std::optional<Vec3> ridge_near(const FrontRays& rays, const Vec3& guess,
+                               const std::optional<Vec3>& lips) {
     const std::vector<Vec3> profile = profile_near(rays, guess, kAroundRidge_m);
     const std::size_t apart = static_cast<std::size_t>(std::lround(kTurnOver_m / kAlong_m));
-    std::optional<Vec3> out;
-    double most = 0;
+    std::vector<double> turns(profile.size(), 0);
     for (std::size_t i = apart; i + apart < profile.size(); ++i) {
-        const double away = (profile[i] - guess).norm();
-        if (away > kAroundRidge_m) continue;
         const Vec3 before = profile[i] - profile[i - apart],
                    after = profile[i + apart] - profile[i];
         // Outwards where the skin turns back: from above, y falls and z first grows.
-        const double turn =
-            std::atan2(before.y() * after.z() - before.z() * after.y(), before.dot(after)) * 180 /
-            std::numbers::pi;
-        const double now = turn - kTurnOfFar_deg * std::pow(away / kFar_m, 2);
-        if (now <= most) continue;
+        turns[i] = std::atan2(before.y() * after.z() - before.z() * after.y(), before.dot(after)) *
+                   180 / std::numbers::pi;
+    }
+    std::optional<Vec3> out;
+    double most = 0;
+    bool on_roll = true;
+    for (std::size_t i = apart; i + apart < profile.size(); ++i) {
+        const double away = (profile[i] - guess).norm();
+        const auto near = turns.begin() + static_cast<std::ptrdiff_t>(i);
+        const auto around = static_cast<std::ptrdiff_t>(apart / 2);
+        if (away > kAroundRidge_m || turns[i] < kLeastRidge_deg ||
+            *std::max_element(near - around, near + around + 1) > turns[i])
+            continue;
+        const bool roll = lips && (profile[i] - *lips).norm() < kRoll_m;
+        const double now = turns[i] - kTurnOfFar_deg * std::pow(away / kFar_m, 2);
+        if ((roll && !on_roll) || (now <= most && roll == on_roll)) continue;
+        if (!roll && now <= 0) continue;
         most = now;
+        on_roll = roll;
         out = profile[i];
     }
     return out;
@@ -157,18 +170,16 @@ std::optional<Vec3> extremal_near(const FrontRays& rays, const Vec3& guess, doub
     return out;
 }
 
-}  // namespace
+using Places = std::map<std::string, Vec3>;
 
-std::map<std::string, Vec3> found_in_front(const ShownHead& head,
-                                           const std::map<std::string, Vec3>& at) {
-    std::map<std::string, Vec3> out;
-    const FrontRays rays(head);
+void find_eyes(const FrontRays& rays, const ShownHead& head, const Places& at, Places& out) {
     for (const Corner& corner : kCorners) {
         const auto guess = at.find(corner.id);
         if (guess == at.end()) continue;
         if (const auto found = corner_near(rays, corner, guess->second))
             out[corner.id] = head.skin_tree.closest(*found)->point;
     }
+    // Along a flat edge, and beneath the fold of an upper lid, the comparison is as good: half of the way
     for (const auto& [id, sign] : {std::pair{"ps_l", 1.0}, std::pair{"ps_r", 1.0},
                                    std::pair{"pi_l", -1.0}, std::pair{"pi_r", -1.0}}) {
         const auto guess = at.find(id);
@@ -176,21 +187,52 @@ std::map<std::string, Vec3> found_in_front(const ShownHead& head,
         if (const auto found = lid_top_near(rays, guess->second, sign))
             out[id] = head.skin_tree.closest(0.5 * (*found + guess->second))->point;
     }
+}
+
+void find_mouth(const FrontRays& rays, const ShownHead& head, const Places& at, Places& out) {
     // Where the comparison misses the mouth, it misses the borders of the lips alike
     Vec3 shift = Vec3::Zero();
+    std::optional<Vec3> middle;
     if (const auto guess = at.find("sto"); guess != at.end())
         if (const auto lips = find_lip_line(rays, guess->second)) {
+            middle = lips->middle;
             out["sto"] = head.skin_tree.closest(lips->middle)->point;
-            shift = out.at("sto") - guess->second;
+            shift = lips->middle - guess->second;
             if (lips->left) out["ch_l"] = head.skin_tree.closest(*lips->left)->point;
             if (lips->right) out["ch_r"] = head.skin_tree.closest(*lips->right)->point;
         }
     for (const char* id : {"ls", "li"}) {
         const auto guess = at.find(id);
         if (guess == at.end()) continue;
-        if (const auto found = ridge_near(rays, guess->second + shift))
+        if (const auto found = ridge_near(rays, guess->second + shift, middle))
             out[id] = head.skin_tree.closest(*found)->point;
     }
+}
+
+/// What only one side of the face shows is taken over to the other: as far from the comparison, mirrored.
+void mirror_missing(const FrontRays& rays, const ShownHead& head, const Places& at, Places& out) {
+    for (const std::string name : {"en", "ex", "ch"})
+        for (const auto& [from, to] :
+             {std::pair{name + "_l", name + "_r"}, std::pair{name + "_r", name + "_l"}}) {
+            if (!out.count(from) || out.count(to) || !at.count(to)) continue;
+            const Vec3 way = out.at(from) - at.at(from),
+                       guess = at.at(to) + Vec3(-way.x(), way.y(), way.z());
+            std::optional<Vec3> found;
+            for (const Corner& corner : kCorners)
+                if (corner.id == to) found = corner_near(rays, corner, guess);
+            out[to] = head.skin_tree.closest(found.value_or(guess))->point;
+        }
+}
+
+}  // namespace
+
+std::map<std::string, Vec3> found_in_front(const ShownHead& head,
+                                           const std::map<std::string, Vec3>& at) {
+    Places out;
+    const FrontRays rays(head);
+    find_eyes(rays, head, at, out);
+    find_mouth(rays, head, at, out);
+    mirror_missing(rays, head, at, out);
     // Where these lie depends on the tilt of the head, too: half of the way
     for (const auto& [id, sign] : {std::pair{"n", -1.0}, std::pair{"prn", 1.0}}) {
         const auto guess = at.find(id);
