@@ -170,6 +170,8 @@ std::optional<Vec3> extremal_near(const FrontRays& rays, const Vec3& guess, doub
     return out;
 }
 
+constexpr double kMissed_m = 4e-3;  // a mouth that the comparison puts as far off is missed
+
 using Places = std::map<std::string, Vec3>;
 
 void find_eyes(const FrontRays& rays, const ShownHead& head, const Places& at, Places& out) {
@@ -241,6 +243,16 @@ std::map<std::string, Vec3> found_in_front(const ShownHead& head,
             out[id] = head.skin_tree.closest(0.5 * (*found + guess->second))->point;
     }
     return out;
+}
+
+std::map<std::string, Vec3> missed_lips(const ShownHead& head,
+                                        const std::map<std::string, Vec3>& at) {
+    const auto guess = at.find("sto");
+    if (guess == at.end()) return {};
+    const auto lips = find_lip_line(FrontRays(head), guess->second);
+    if (!lips || !lips->left || !lips->right || (lips->middle - guess->second).norm() < kMissed_m)
+        return {};
+    return {{"sto", lips->middle}, {"ch_l", *lips->left}, {"ch_r", *lips->right}};
 }
 
 }  // namespace risorius::landmarks

@@ -23,4 +23,8 @@ namespace risorius::landmarks {
 std::map<std::string, Vec3> found_in_front(const ShownHead& head,
                                            const std::map<std::string, Vec3>& at);
 
+/// The landmarks of the line of the lips (sto, ch_l, ch_r), if the comparison misses it by more than 4 mm; else nothing.
+std::map<std::string, Vec3> missed_lips(const ShownHead& head,
+                                        const std::map<std::string, Vec3>& at);
+
 }  // namespace risorius::landmarks
