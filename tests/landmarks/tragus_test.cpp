@@ -44,11 +44,11 @@ void expect_found_from_afar(const MarkedHead& marks, double within_mm) {
 
 const fs::path kSourceOfHeads = RISORIUS_SOURCE_DIR, kOtherHeads = RISORIUS_SHARED_DIR;
 
-// The marks of three hands agree with the definition within 2.6 to 3.1 mm (docs/decisions/0091).
+// The notch of the adult and of MakeHuman is found within 1.2 mm of its mark; the mark of ICT lies 3.1 mm below (docs/decisions/0091).
 TEST(Tragion, IsFoundOnTheAdultFromMillimetresAway) {
     const fs::path adult = kSourceOfHeads / "models/adult";
     expect_found_from_afar(marked(adult / "head.obj", adult / "landmarks_by_definition.json", 1e-3),
-                           3.2);
+                           1.5);
 }
 
 TEST(Tragion, IsFoundOnHeadsOfOtherTopologies) {
@@ -69,7 +69,7 @@ TEST(Tragion, IsFoundOnATurnedHead) {
             expect_found_from_afar(
                 marked(adult / "head.obj", adult / "landmarks_by_definition.json", 1e-3,
                        Eigen::AngleAxisd(angle, axis).toRotationMatrix()),
-                4);
+                2.5);
 }
 
 TEST(Tragion, IsNotFoundWhereThereIsNoEar) {
