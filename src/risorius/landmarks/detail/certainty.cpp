@@ -134,8 +134,10 @@ std::map<std::string, JudgedLandmark> judged_landmarks(
     for (const auto& [id, side] : {std::pair{"t_l", 1.0}, std::pair{"t_r", -1.0}})
         if (const auto found = tragion_near(head, side, positions.at(id)))
             out.at(id).at = positions.at(id) = *found;
-    if (const auto found = menton_near(head, positions.at("pg"), positions.at("me")))
-        out.at("me").at = positions.at("me") = *found;
+    if (positions.count("sl") && positions.count("hyo"))
+        if (const auto found = menton_by_profile(head, {positions.at("sl"), positions.at("pg"),
+                                                        positions.at("me"), positions.at("hyo")}))
+            out.at("me").at = positions.at("me") = *found;
     const rig::HeadFrame frame = rig::find_head_frame(positions, atlas, 1.0);
     find_by_definition(head, frame, out);
     doubt_edges(head, atlas, out);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/landmarks/detail/chin.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -9,9 +10,11 @@ namespace risorius::landmarks {
 
 namespace {
 
-// Measured on ICT-FaceKit, MakeHuman, the adult, and people of its family: docs/decisions/0091
-constexpr double kChinLength_m = 32.6e-3;  // of the profile, from the pogonion to the menton
-constexpr double kShareOfGuess = 0.64;
+// The length of the profile from the pogonion to the menton, as shares of the distances from the sublabiale and from the hyoid to the
+// pogonion. Fitted to 74 heads: docs/decisions/0091
+constexpr double kOfChin = 1.98, kOfThroat = 0.313;
+constexpr double kFarthest_m =
+    7e-3;  // from the comparison, which on those heads was off by up to 6.5 mm
 constexpr double kMiddleAbove_m = 5e-3, kMiddleBehind_m = 5e-3;  // of the fan, from pg and from me
 constexpr double kFanRadius_m = 50e-3, kFanStep_deg = 0.5, kFanBehind_deg = -110;
 
@@ -29,8 +32,9 @@ struct Profile {
 };
 
 /// The profile of the chin from the pogonion downwards, as rays towards a place within it meet it.
-Profile chin_profile(const ShownHead& head, const Vec3& pogonion, const Vec3& guess) {
-    const Vec3 middle(guess.x() + 1e-5, pogonion.y() + kMiddleAbove_m, guess.z() - kMiddleBehind_m);
+Profile chin_profile(const ShownHead& head, const Vec3& pogonion, const Vec3& menton) {
+    const Vec3 middle(menton.x() + 1e-5, pogonion.y() + kMiddleAbove_m,
+                      menton.z() - kMiddleBehind_m);
     const double first_deg =
         std::atan2(pogonion.y() - middle.y(), pogonion.z() - middle.z()) * 180 / std::numbers::pi;
     Profile out;
@@ -48,11 +52,13 @@ Profile chin_profile(const ShownHead& head, const Vec3& pogonion, const Vec3& gu
 
 }  // namespace
 
-std::optional<Vec3> menton_near(const ShownHead& head, const Vec3& pogonion, const Vec3& guess) {
-    const Profile profile = chin_profile(head, pogonion, guess);
+std::optional<Vec3> menton_by_profile(const ShownHead& head, const ChinLandmarks& at) {
+    const Profile profile = chin_profile(head, at.pogonion, at.menton);
     if (profile.points.empty()) return std::nullopt;
-    const double guessed = profile.nearest(guess);
-    const double length = kShareOfGuess * guessed + (1 - kShareOfGuess) * kChinLength_m;
+    const double compared = profile.nearest(at.menton),
+                 usual = kOfChin * (at.sublabiale - at.pogonion).norm() +
+                         kOfThroat * (at.hyoid - at.pogonion).norm(),
+                 length = std::clamp(usual, compared - kFarthest_m, compared + kFarthest_m);
     for (std::size_t i = 1; i < profile.points.size(); ++i)
         if (profile.along[i] >= length) {
             const double share =
