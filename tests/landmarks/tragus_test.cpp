@@ -37,7 +37,7 @@ void expect_found_from_afar(const MarkedHead& marks, double within_mm) {
              {Vec3(0, 0, 0), Vec3(2, 7, -4), Vec3(-2, -7, 4), Vec3(0, 7, 4), Vec3(0, -7, -4)}) {
             const auto found = tragion_near(marks.head, side, marks.at.at(id) + 1e-3 * off_mm);
             ASSERT_TRUE(found) << id << ", " << off_mm.transpose();
-            EXPECT_LT(1e3 * (*found - marks.at.at(id)).norm(), within_mm)
+            EXPECT_LT(1e3 * (found->at - marks.at.at(id)).norm(), within_mm)
                 << id << ", " << off_mm.transpose();
         }
 }

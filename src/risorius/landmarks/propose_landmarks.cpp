@@ -79,9 +79,12 @@ std::vector<std::map<std::string, PlacedLandmark>> placed_by_all(
         });
     };
     place({});
-    Vec3 stomion = Vec3::Zero();
-    for (const auto& by : out) stomion += by.at("sto").at / static_cast<double>(out.size());
-    const auto lips = missed_lips(head, {{"sto", stomion}});
+    std::map<std::string, Vec3> mean;
+    for (const char* id : {"sto", "ch_l", "ch_r"}) {
+        mean[id] = Vec3::Zero();
+        for (const auto& by : out) mean[id] += by.at(id).at / static_cast<double>(out.size());
+    }
+    const auto lips = missed_lips(head, mean);
     if (!lips.empty()) place(lips);
     return out;
 }

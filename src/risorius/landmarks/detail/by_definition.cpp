@@ -170,7 +170,8 @@ std::optional<Vec3> extremal_near(const FrontRays& rays, const Vec3& guess, doub
     return out;
 }
 
-constexpr double kMissed_m = 4e-3;  // a mouth that the comparison puts as far off is missed
+constexpr double kUnlike_m = 4.5e-3;  // on heads with right corners, up to 3.1 mm
+constexpr double kMissed_m = 4e-3;    // a mouth that the comparison puts as far off is missed
 
 using Places = std::map<std::string, Vec3>;
 
@@ -211,6 +212,17 @@ void find_mouth(const FrontRays& rays, const ShownHead& head, const Places& at, 
     }
 }
 
+/// Eyes are alike: where the corners of both are found in different ways from the comparison, the farther one is taken out.
+void drop_unlike(const Places& at, Places& out) {
+    for (const std::string name : {"en", "ex"}) {
+        const std::string left = name + "_l", right = name + "_r";
+        if (!out.count(left) || !out.count(right)) continue;
+        const Vec3 way = out.at(left) - at.at(left), other = out.at(right) - at.at(right);
+        if ((way - Vec3(-other.x(), other.y(), other.z())).norm() > kUnlike_m)
+            out.erase(way.norm() > other.norm() ? left : right);
+    }
+}
+
 /// What only one side of the face shows is taken over to the other: as far from the comparison, mirrored.
 void mirror_missing(const FrontRays& rays, const ShownHead& head, const Places& at, Places& out) {
     for (const std::string name : {"en", "ex", "ch"})
@@ -234,6 +246,7 @@ std::map<std::string, Vec3> found_in_front(const ShownHead& head,
     const FrontRays rays(head);
     find_eyes(rays, head, at, out);
     find_mouth(rays, head, at, out);
+    drop_unlike(at, out);
     mirror_missing(rays, head, at, out);
     // Where these lie depends on the tilt of the head, too: half of the way
     for (const auto& [id, sign] : {std::pair{"n", -1.0}, std::pair{"prn", 1.0}}) {
@@ -250,9 +263,14 @@ std::map<std::string, Vec3> missed_lips(const ShownHead& head,
     const auto guess = at.find("sto");
     if (guess == at.end()) return {};
     const auto lips = find_lip_line(FrontRays(head), guess->second);
-    if (!lips || !lips->left || !lips->right || (lips->middle - guess->second).norm() < kMissed_m)
-        return {};
-    return {{"sto", lips->middle}, {"ch_l", *lips->left}, {"ch_r", *lips->right}};
+    if (!lips || !lips->left || !lips->right) return {};
+    std::map<std::string, Vec3> out{
+        {"sto", lips->middle}, {"ch_l", *lips->left}, {"ch_r", *lips->right}};
+    for (const auto& [id, p] : out) {
+        const auto compared = at.find(id);
+        if (compared != at.end() && (p - compared->second).norm() > kMissed_m) return out;
+    }
+    return {};
 }
 
 }  // namespace risorius::landmarks

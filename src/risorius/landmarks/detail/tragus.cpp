@@ -28,7 +28,7 @@ constexpr double kNotchAbove_m =
     8e-3;                          // of where a third of the step is left: where it is looked for
 constexpr double kAside_m = 1e-3;  // of a ridge from row to row
 // Measured on ICT-FaceKit, MakeHuman and the adult: docs/decisions/0091
-constexpr double kStepLeft = 1.0 / 3, kBehindRidge_m = 1.2e-3;
+constexpr double kStepLeft = 0.5, kStepAtNotch = 1.0 / 3, kBehindRidge_m = 1.2e-3;
 constexpr double kSummitBelow_m = 4e-3, kSummitInFront_m = 1e-3;  // of a summit from the tragion
 
 int cells(double length_m) { return static_cast<int>(std::lround(length_m / kEarStep_m)); }
@@ -153,7 +153,7 @@ std::optional<std::size_t> sharp_notch(const SideView& view, const std::vector<R
 
 }  // namespace
 
-std::optional<Vec3> tragion_near(const ShownHead& head, double side, const Vec3& guess) {
+std::optional<Tragion> tragion_near(const ShownHead& head, double side, const Vec3& guess) {
     const SideView view(head, side, guess);
     const auto summit = tragus_summit(view, guess);
     if (!summit) return std::nullopt;
@@ -166,19 +166,25 @@ std::optional<Vec3> tragion_near(const ShownHead& head, double side, const Vec3&
     };
     double greatest = 0, before = 0;
     std::size_t lowest = 0;
+    Vec3 end = Vec3::Zero();  // where the tragus ends if no notch ends it
+    bool ended = false;
     for (std::size_t i = 0; i < ridge.size(); ++i) {
         const double step = view.step_behind(ridge[i].row, ridge[i].column);
         greatest = std::max(greatest, step);
-        if (step <= kStepLeft * greatest) {
-            if (const auto notch = sharp_notch(view, ridge, i)) return on_skin(point_at(*notch));
+        if (!ended && step <= kStepLeft * greatest) {
             // Between two rows
             const double share = (before - kStepLeft * greatest) / (before - step);
-            return on_skin((1 - share) * point_at(i - 1) + share * point_at(i));
+            end = (1 - share) * point_at(i - 1) + share * point_at(i);
+            ended = true;
+        }
+        if (step <= kStepAtNotch * greatest) {
+            const auto notch = sharp_notch(view, ridge, i);
+            return Tragion{on_skin(notch ? point_at(*notch) : end), notch.has_value()};
         }
         // At the notch, the ridge begins to rise to the helix.
         const auto out_at = [&](std::size_t k) { return view.out(ridge[k].row, ridge[k].column); };
         if (out_at(i) < out_at(lowest)) lowest = i;
-        if (out_at(i) > out_at(lowest) + kRise_m) return on_skin(point_at(lowest));
+        if (out_at(i) > out_at(lowest) + kRise_m) return Tragion{on_skin(point_at(lowest)), false};
         before = step;
     }
     return std::nullopt;
