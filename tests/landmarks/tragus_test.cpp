@@ -44,7 +44,7 @@ void expect_found_from_afar(const MarkedHead& marks, double within_mm) {
 
 const fs::path kSourceOfHeads = RISORIUS_SOURCE_DIR, kOtherHeads = RISORIUS_SHARED_DIR;
 
-// The notch of the adult and of MakeHuman is found within 1.2 mm of its mark; the mark of ICT lies 3.1 mm below (docs/decisions/0091).
+// The notch of the adult and of MakeHuman is found within 1.8 mm of its mark; the mark of ICT lies 2.1 mm below (docs/decisions/0091).
 TEST(Tragion, IsFoundOnTheAdultFromMillimetresAway) {
     const fs::path adult = kSourceOfHeads / "models/adult";
     expect_found_from_afar(marked(adult / "head.obj", adult / "landmarks_by_definition.json", 1e-3),
@@ -55,10 +55,10 @@ TEST(Tragion, IsFoundOnHeadsOfOtherTopologies) {
     const fs::path heads = kOtherHeads / "data/heads", truth = kSourceOfHeads / "tests/data/heads";
     if (!fs::exists(heads)) GTEST_SKIP() << "no ../shared";
     expect_found_from_afar(
-        marked(heads / "ict/ict_neutral.obj", truth / "ict_landmarks.json", 1e-2), 3.2);
+        marked(heads / "ict/ict_neutral.obj", truth / "ict_landmarks.json", 1e-2), 2.5);
     for (const char* name : {"mh_head.obj", "mh_id1.obj"})
         expect_found_from_afar(
-            marked(heads / "makehuman" / name, truth / "makehuman_landmarks.json", 1e-2), 1.5);
+            marked(heads / "makehuman" / name, truth / "makehuman_landmarks.json", 1e-2), 2);
 }
 
 // The frame of a comparison is turned by a few degrees from that of the head.

@@ -170,8 +170,8 @@ std::optional<Vec3> extremal_near(const FrontRays& rays, const Vec3& guess, doub
     return out;
 }
 
-constexpr double kUnlike_m = 4.5e-3;  // on heads with right corners, up to 3.1 mm
-constexpr double kMissed_m = 4e-3;    // a mouth that the comparison puts as far off is missed
+constexpr double kUnlike_m = 4e-3;
+constexpr double kMissed_m = 4e-3;  // a mouth that the comparison puts as far off is missed
 
 using Places = std::map<std::string, Vec3>;
 
@@ -212,15 +212,17 @@ void find_mouth(const FrontRays& rays, const ShownHead& head, const Places& at, 
     }
 }
 
-/// Eyes are alike: where the corners of both are found in different ways from the comparison, the farther one is taken out.
+/// Both eyes are alike. Where they are not, the corner that is farthest from the comparison is taken out.
 void drop_unlike(const Places& at, Places& out) {
-    for (const std::string name : {"en", "ex"}) {
-        const std::string left = name + "_l", right = name + "_r";
-        if (!out.count(left) || !out.count(right)) continue;
-        const Vec3 way = out.at(left) - at.at(left), other = out.at(right) - at.at(right);
-        if ((way - Vec3(-other.x(), other.y(), other.z())).norm() > kUnlike_m)
-            out.erase(way.norm() > other.norm() ? left : right);
+    std::string farthest;
+    for (const std::string id : {"en_l", "ex_l", "en_r", "ex_r"}) {
+        if (!out.count(id)) return;
+        if (farthest.empty() ||
+            (out.at(id) - at.at(id)).norm() > (out.at(farthest) - at.at(farthest)).norm())
+            farthest = id;
     }
+    const Vec3 left = out.at("ex_l") - out.at("en_l"), right = out.at("ex_r") - out.at("en_r");
+    if ((left - Vec3(-right.x(), right.y(), right.z())).norm() > kUnlike_m) out.erase(farthest);
 }
 
 /// What only one side of the face shows is taken over to the other: as far from the comparison, mirrored.
