@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "paths.h"
 #include "risorius/io/read_mesh.h"
@@ -47,9 +48,13 @@ std::map<std::string, Vec3>* ByDefinition::placed_ = nullptr;
 TEST_F(ByDefinition, CornersAndLipsAreFoundFromAFewMillimetresAway) {
     for (const Vec3& off : {Vec3(0, 0, 0), Vec3(3, 1, 1), Vec3(-3, -1, 2), Vec3(4, 0, -1)}) {
         const auto at = found(*mesh_, off);
-        EXPECT_EQ(at.size(), 11u);  // corners of eyes and mouth, n, prn, ls, sto and li
-        for (const auto& [id, p] : at)
-            EXPECT_LT(1e3 * (p - placed_->at(id)).norm(), 2) << id << ", " << off.transpose();
+        // Corners of eyes and mouth, edges of lids, n, prn, ls, sto and li
+        EXPECT_EQ(at.size(), 15u);
+        for (const auto& [id, p] : at) {
+            // Along the edge of a lid, half of what the comparison is off remains.
+            const double within = id.starts_with("ps") || id.starts_with("pi") ? 2.7 : 2;
+            EXPECT_LT(1e3 * (p - placed_->at(id)).norm(), within) << id << ", " << off.transpose();
+        }
     }
 }
 
@@ -60,6 +65,41 @@ TEST_F(ByDefinition, BordersOfLipsAreFoundFromFarther) {
         ASSERT_EQ(at.count(id), 1u) << id;
         EXPECT_LT(1e3 * (at.at(id) - placed_->at(id)).norm(), 2) << id;
     }
+}
+
+TEST_F(ByDefinition, TheMouthIsFoundFromFarther) {
+    // Where a mouth is low, the network misses it by 9 mm (decision 91); before, corners were then off by as much.
+    for (const Vec3& off : {Vec3(0, -9, -5), Vec3(6, 8, 0), Vec3(-6, 0, 0)}) {
+        const auto at = found(*mesh_, off);
+        for (const char* id : {"ch_l", "ch_r", "sto"}) {
+            ASSERT_EQ(at.count(id), 1u) << id;
+            EXPECT_LT(1e3 * (at.at(id) - placed_->at(id)).norm(), 1.5)
+                << id << ", " << off.transpose();
+        }
+    }
+}
+
+TEST_F(ByDefinition, OnlyAMouthThatIsMissedIsHeld) {
+    const ShownHead head = shown_head(*mesh_, "adult");
+    const Vec3 stomion = placed_->at("sto");
+    EXPECT_TRUE(missed_lips(head, {{"sto", stomion + Vec3(0, -2e-3, 0)}}).empty());
+    EXPECT_TRUE(missed_lips(head, {}).empty());
+    const auto lips = missed_lips(head, {{"sto", stomion + Vec3(0, -8e-3, 0)}});
+    ASSERT_EQ(lips.size(), 3u);
+    for (const auto& [id, p] : lips) EXPECT_LT(1e3 * (p - placed_->at(id)).norm(), 1.5) << id;
+}
+
+TEST_F(ByDefinition, WhatOneEyeShowsIsTakenOverToTheOther) {
+    // The comparison is off to the same side on both eyes, on the left by so much that its search alone finds nothing.
+    const auto found_with = [&](bool both) {
+        std::map<std::string, Vec3> at{{"en_l", placed_->at("en_l") + Vec3(0, -5e-3, 0)}};
+        if (both) at["en_r"] = placed_->at("en_r") + Vec3(0, -2.9e-3, 0);
+        return found_in_front(shown_head(*mesh_, "adult"), at);
+    };
+    EXPECT_EQ(found_with(false).count("en_l"), 0u);
+    const auto at = found_with(true);
+    ASSERT_EQ(at.count("en_l"), 1u);
+    EXPECT_LT(1e3 * (at.at("en_l") - placed_->at("en_l")).norm(), 1.5);
 }
 
 TEST_F(ByDefinition, OtherLandmarksAndFarGuessesAreLeftAlone) {

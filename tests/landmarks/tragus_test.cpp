@@ -37,28 +37,28 @@ void expect_found_from_afar(const MarkedHead& marks, double within_mm) {
              {Vec3(0, 0, 0), Vec3(2, 7, -4), Vec3(-2, -7, 4), Vec3(0, 7, 4), Vec3(0, -7, -4)}) {
             const auto found = tragion_near(marks.head, side, marks.at.at(id) + 1e-3 * off_mm);
             ASSERT_TRUE(found) << id << ", " << off_mm.transpose();
-            EXPECT_LT(1e3 * (*found - marks.at.at(id)).norm(), within_mm)
+            EXPECT_LT(1e3 * (found->at - marks.at.at(id)).norm(), within_mm)
                 << id << ", " << off_mm.transpose();
         }
 }
 
 const fs::path kSourceOfHeads = RISORIUS_SOURCE_DIR, kOtherHeads = RISORIUS_SHARED_DIR;
 
-// The marks of three hands agree with the definition within 2.6 to 3.1 mm (docs/decisions/0091).
+// The notch of the adult and of MakeHuman is found within 1.8 mm of its mark; the mark of ICT lies 2.1 mm below (docs/decisions/0091).
 TEST(Tragion, IsFoundOnTheAdultFromMillimetresAway) {
     const fs::path adult = kSourceOfHeads / "models/adult";
     expect_found_from_afar(marked(adult / "head.obj", adult / "landmarks_by_definition.json", 1e-3),
-                           3.2);
+                           1.5);
 }
 
 TEST(Tragion, IsFoundOnHeadsOfOtherTopologies) {
     const fs::path heads = kOtherHeads / "data/heads", truth = kSourceOfHeads / "tests/data/heads";
     if (!fs::exists(heads)) GTEST_SKIP() << "no ../shared";
     expect_found_from_afar(
-        marked(heads / "ict/ict_neutral.obj", truth / "ict_landmarks.json", 1e-2), 3.2);
+        marked(heads / "ict/ict_neutral.obj", truth / "ict_landmarks.json", 1e-2), 2.5);
     for (const char* name : {"mh_head.obj", "mh_id1.obj"})
         expect_found_from_afar(
-            marked(heads / "makehuman" / name, truth / "makehuman_landmarks.json", 1e-2), 1.5);
+            marked(heads / "makehuman" / name, truth / "makehuman_landmarks.json", 1e-2), 2);
 }
 
 // The frame of a comparison is turned by a few degrees from that of the head.
@@ -69,7 +69,7 @@ TEST(Tragion, IsFoundOnATurnedHead) {
             expect_found_from_afar(
                 marked(adult / "head.obj", adult / "landmarks_by_definition.json", 1e-3,
                        Eigen::AngleAxisd(angle, axis).toRotationMatrix()),
-                4);
+                2.5);
 }
 
 TEST(Tragion, IsNotFoundWhereThereIsNoEar) {

@@ -215,7 +215,10 @@ await test("landmarks are found in pictures of the mesh, and what is not sure is
   }
   await until(page, () => /landmarks found/.test(document.querySelector("#newhead-told").textContent));
   const { places, chosen } = await head();
-  const errors = Object.entries(truth).filter(([id]) => places[id]).map(([id, at]) => [far(places[id].at, at), id]);
+  // Where the adult's own file has them elsewhere than their definition says
+  const defined = JSON.parse(readFileSync(join(source, "models/adult/landmarks_by_definition.json"), "utf8")).landmarks;
+  const wanted = { ...truth, ...Object.fromEntries(Object.entries(defined).map(([id, { vertex }]) => [id, vertices[vertex]])) };
+  const errors = Object.entries(wanted).filter(([id]) => places[id]).map(([id, at]) => [far(places[id].at, at), id]);
   assert.ok(errors.length > 90, `${errors.length}`);
   // The adult is the head it is compared with: this is about the way of the landmarks into the page.
   assert.ok(Math.max(...errors.filter(([, id]) => !["v", "op"].includes(id)).map(([one]) => one)) < 5, `${errors.sort().slice(-3)}`);

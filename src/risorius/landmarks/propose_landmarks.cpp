@@ -11,6 +11,7 @@
 #include "risorius/core/json_object.h"
 #include "risorius/core/parallel.h"
 #include "risorius/io/read_mesh.h"
+#include "risorius/landmarks/detail/by_definition.h"
 #include "risorius/landmarks/detail/certainty.h"
 #include "risorius/landmarks/detail/landmark_pictures.h"
 #include "risorius/landmarks/detail/registration.h"
@@ -64,6 +65,28 @@ ShownHead moved(const geom::PolygonMesh& mesh, const Similarity& motion,
     for (Eigen::Index v = 0; v < out.positions.rows(); ++v)
         out.positions.row(v) = motion(mesh.positions.row(v).transpose()).transpose();
     return shown_head(out, options.mesh.string(), options.parts);
+}
+
+/// As each template places the landmarks; once more, with the lips held, where their line shows that the mouth was missed.
+std::vector<std::map<std::string, PlacedLandmark>> placed_by_all(
+    const std::vector<TemplateHead>& known, const ShownHead& head,
+    const std::vector<SeenPoint>& face) {
+    std::vector<std::map<std::string, PlacedLandmark>> out(known.size());
+    const auto place = [&](const std::map<std::string, Vec3>& lips) {
+        parallel_for(static_cast<int>(known.size()), {}, [&](int i) {
+            const auto at = static_cast<std::size_t>(i);
+            out[at] = placed_landmarks(known[at], head, face, lips);
+        });
+    };
+    place({});
+    std::map<std::string, Vec3> mean;
+    for (const char* id : {"sto", "ch_l", "ch_r"}) {
+        mean[id] = Vec3::Zero();
+        for (const auto& by : out) mean[id] += by.at(id).at / static_cast<double>(out.size());
+    }
+    const auto lips = missed_lips(head, mean);
+    if (!lips.empty()) place(lips);
+    return out;
 }
 
 void find_unit(const LandmarkOptions& options, double units_per_metre, LandmarkProposal& out) {
@@ -139,11 +162,7 @@ LandmarkProposal propose_landmarks(const LandmarkOptions& options, const Progres
     }
 
     monitor.report(0.7, "bringing them onto the mesh");
-    std::vector<std::map<std::string, PlacedLandmark>> placed(known.size());
-    parallel_for(static_cast<int>(known.size()), {}, [&](int i) {
-        const auto at = static_cast<std::size_t>(i);
-        placed[at] = placed_landmarks(known[at], head, face);
-    });
+    const auto placed = placed_by_all(known, head, face);
     const std::map<std::string, JudgedLandmark> judged = judged_landmarks(placed, head, atlas);
     const Eigen::Matrix4d to_file = mesh.from_file.inverse();
     for (const auto& [id, landmark] : judged) {

@@ -10,6 +10,7 @@
 #include "risorius/geom/surface_topology.h"
 #include "risorius/geom/weld.h"
 #include "risorius/landmarks/detail/by_definition.h"
+#include "risorius/landmarks/detail/chin.h"
 #include "risorius/landmarks/detail/tragus.h"
 #include "risorius/rig/head.h"
 #include "risorius/rig/landmark_check.h"
@@ -98,6 +99,26 @@ void doubt_edges(const ShownHead& head, const rig::Atlas& atlas,
     }
 }
 
+/// The tragions that are found. Where only one of them lies at a sharp notch, the other is as far from where the comparison puts it, mirrored.
+std::map<std::string, Vec3> tragions(const ShownHead& head, const Vec3& left, const Vec3& right) {
+    const auto found_left = tragion_near(head, 1, left),
+               found_right = tragion_near(head, -1, right);
+    const auto mirrored = [&](const Vec3& found, const Vec3& guess, const Vec3& other) {
+        const Vec3 way = found - guess;
+        return head.skin_tree.closest(other + Vec3(-way.x(), way.y(), way.z()))->point;
+    };
+    const bool notch_left = found_left && found_left->at_notch,
+               notch_right = found_right && found_right->at_notch;
+    std::map<std::string, Vec3> out;
+    if (found_left)
+        out["t_l"] =
+            notch_right && !notch_left ? mirrored(found_right->at, right, left) : found_left->at;
+    if (found_right)
+        out["t_r"] =
+            notch_left && !notch_right ? mirrored(found_left->at, left, right) : found_right->at;
+    return out;
+}
+
 std::string whole_mm(double metres) { return format_number(std::round(1e3 * metres)) + " mm"; }
 
 }  // namespace
@@ -130,9 +151,12 @@ std::map<std::string, JudgedLandmark> judged_landmarks(
     for (const auto& [id, landmark] : out) positions[id] = landmark.at;
     for (const auto& [id, p] : found_in_front(head, positions))
         out.at(id).at = positions.at(id) = p;
-    for (const auto& [id, side] : {std::pair{"t_l", 1.0}, std::pair{"t_r", -1.0}})
-        if (const auto found = tragion_near(head, side, positions.at(id)))
-            out.at(id).at = positions.at(id) = *found;
+    for (const auto& [id, p] : tragions(head, positions.at("t_l"), positions.at("t_r")))
+        out.at(id).at = positions.at(id) = p;
+    if (positions.count("sl") && positions.count("hyo"))
+        if (const auto found = menton_by_profile(head, {positions.at("sl"), positions.at("pg"),
+                                                        positions.at("me"), positions.at("hyo")}))
+            out.at("me").at = positions.at("me") = *found;
     const rig::HeadFrame frame = rig::find_head_frame(positions, atlas, 1.0);
     find_by_definition(head, frame, out);
     doubt_edges(head, atlas, out);

@@ -24,6 +24,8 @@ constexpr double kEarDeviation_m = 3e-3;
 constexpr double kOfNormals_m = 10e-3;  // what a difference of normals of 1 rad is worth
 constexpr double kSimilarWidth_m = 4e-3, kAlongSkin = 1.3;
 constexpr double kFaceSpacing_m = 9e-3, kAboveNasion_m = 0.03, kAroundFace_m = 0.01;
+// Where the network misses the mouth: what it says of lips and chin is left out, and the lips are where they were found.
+constexpr double kAroundMouth_m = 35e-3, kLipDeviation_m = 0.5e-3;
 constexpr double kLessTrust = 1.5;  // factor of the deviation of what is seen, once there are nodes
 
 struct Scale {
@@ -342,6 +344,36 @@ void add_ears(const TemplateHead& known, const Similarity& to_new, const ShownHe
         }
 }
 
+/// Takes what the network sees of the mouth and of the chin out, and adds where the lips are.
+void hold_lips(const TemplateHead& known, const Similarity& to_new,
+               const std::map<std::string, Vec3>& lips, Moving& moving) {
+    const Vec3 middle = to_new(known.landmarks.at("sto"));
+    const double highest = to_new(known.landmarks.at("sn")).y();
+    std::vector<Vec3> anchors, seen;
+    std::vector<double> deviation;
+    for (Eigen::Index i = 0; i < moving.anchors.rows(); ++i) {
+        const Vec3 at = moving.anchors.row(i).transpose();
+        if (at.y() < highest && (at - middle).norm() < to_new.scale * kAroundMouth_m) continue;
+        anchors.push_back(at);
+        seen.push_back(moving.seen.row(i).transpose());
+        deviation.push_back(moving.anchor_deviation[static_cast<std::size_t>(i)]);
+    }
+    for (const auto& [id, place] : lips) {
+        const auto from = known.landmarks.find(id);
+        if (from == known.landmarks.end()) continue;
+        anchors.push_back(to_new(from->second));
+        seen.push_back(place - anchors.back());
+        deviation.push_back(kLipDeviation_m);
+    }
+    moving.anchors.resize(static_cast<Eigen::Index>(anchors.size()), 3);
+    moving.seen.resize(moving.anchors.rows(), 3);
+    for (std::size_t i = 0; i < anchors.size(); ++i) {
+        moving.anchors.row(static_cast<Eigen::Index>(i)) = anchors[i].transpose();
+        moving.seen.row(static_cast<Eigen::Index>(i)) = seen[i].transpose();
+    }
+    moving.anchor_deviation = deviation;
+}
+
 Points stacked(const Points& a, const Points& b) {
     Points out(a.rows() + b.rows(), 3);
     out << a, b;
@@ -390,7 +422,8 @@ SmoothField registered(const Moving& moving, const ShownHead& head) {
 
 std::map<std::string, PlacedLandmark> placed_landmarks(const TemplateHead& known,
                                                        const ShownHead& head,
-                                                       const std::vector<SeenPoint>& face) {
+                                                       const std::vector<SeenPoint>& face,
+                                                       const std::map<std::string, Vec3>& lips) {
     std::vector<Vec3> from, to;
     std::vector<double> weights;
     for (std::size_t k = 0; k < face.size(); ++k) {
@@ -402,6 +435,7 @@ std::map<std::string, PlacedLandmark> placed_landmarks(const TemplateHead& known
     }
     const Similarity to_new = nearest_similarity(from, to, weights);
     Moving parts = moving(known, to_new, face);
+    if (!lips.empty()) hold_lips(known, to_new, lips, parts);
     add_ears(known, to_new, head, parts);
     const SmoothField seen(parts.anchors, parts.anchor_deviation), field = registered(parts, head);
     std::map<std::string, PlacedLandmark> out;

@@ -28,9 +28,10 @@ struct PlacedLandmark {
         0;  ///< deviation that what the network sees leaves there, before the registration
 };
 
-/// `head` and `face`: the new one, in the frame and size of the template.
-std::map<std::string, PlacedLandmark> placed_landmarks(const TemplateHead& known,
-                                                       const ShownHead& head,
-                                                       const std::vector<SeenPoint>& face);
+/// `head` and `face`: the new one, in the frame and size of the template. `lips`: landmarks of the line of its lips, where the network
+/// misses it.
+std::map<std::string, PlacedLandmark> placed_landmarks(
+    const TemplateHead& known, const ShownHead& head, const std::vector<SeenPoint>& face,
+    const std::map<std::string, Vec3>& lips = {});
 
 }  // namespace risorius::landmarks

@@ -22,9 +22,13 @@ constexpr double kLeastStep_m = 3.5e-3,
 constexpr double kPriceOfAway =
     0.25;                           // of a summit: lost step per distance from where it is expected
 constexpr double kRise_m = 0.5e-3;  // of a ridge behind a notch
-constexpr double kAside_m = 1e-3;   // of a ridge from row to row
+// A notch is sharp where the ridge falls into it and rises out of it by this, within this length of its bottom
+constexpr double kSharpRise_m = 1e-3, kSharpLength_m = 1.5e-3;
+constexpr double kNotchAbove_m =
+    8e-3;                          // of where a third of the step is left: where it is looked for
+constexpr double kAside_m = 1e-3;  // of a ridge from row to row
 // Measured on ICT-FaceKit, MakeHuman and the adult: docs/decisions/0091
-constexpr double kStepLeft = 1.0 / 3, kBehindRidge_m = 1.2e-3;
+constexpr double kStepLeft = 0.5, kStepAtNotch = 1.0 / 3, kBehindRidge_m = 1.2e-3;
 constexpr double kSummitBelow_m = 4e-3, kSummitInFront_m = 1e-3;  // of a summit from the tragion
 
 int cells(double length_m) { return static_cast<int>(std::lround(length_m / kEarStep_m)); }
@@ -118,38 +122,69 @@ std::optional<RidgePlace> tragus_summit(const SideView& view, const Vec3& guess)
     return out;
 }
 
+/// The ridge from a summit up to the front root of the helix, a place for each row.
+std::vector<RidgePlace> ridge_above(const SideView& view, const RidgePlace& summit) {
+    std::vector<RidgePlace> out{summit};
+    for (int row = summit.row - 1; row >= 0; --row) {
+        const int aside = cells(kAside_m), column = out.back().column;
+        RidgePlace next{row, std::max(0, column - aside)};
+        for (int j = next.column; j <= std::min(view.columns() - 1, column + aside); ++j)
+            if (view.out(row, j) > view.out(row, next.column)) next.column = j;
+        if (!std::isfinite(view.out(next.row, next.column))) break;
+        out.push_back(next);
+    }
+    return out;
+}
+
+/// The bottom of a sharp notch of a ridge, from its place `first` on upwards; nothing where the ridge rises gently.
+std::optional<std::size_t> sharp_notch(const SideView& view, const std::vector<RidgePlace>& ridge,
+                                       std::size_t first) {
+    const auto out_at = [&](std::size_t i) { return view.out(ridge[i].row, ridge[i].column); };
+    const auto near = static_cast<std::size_t>(cells(kSharpLength_m));
+    const std::size_t end =
+        std::min(ridge.size(), first + static_cast<std::size_t>(cells(kNotchAbove_m)));
+    std::size_t lowest = first;
+    for (std::size_t i = first; i < end; ++i) {
+        if (out_at(i) < out_at(lowest)) lowest = i;
+        if (i <= lowest + near && out_at(i) > out_at(lowest) + kSharpRise_m) return lowest;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
-std::optional<Vec3> tragion_near(const ShownHead& head, double side, const Vec3& guess) {
+std::optional<Tragion> tragion_near(const ShownHead& head, double side, const Vec3& guess) {
     const SideView view(head, side, guess);
     const auto summit = tragus_summit(view, guess);
     if (!summit) return std::nullopt;
-    const auto out_at = [&](const RidgePlace& p) { return view.out(p.row, p.column); };
-    const auto point_at = [&](const RidgePlace& p) {
-        return view.point(p.row, p.column, out_at(p));
+    const std::vector<RidgePlace> ridge = ridge_above(view, *summit);
+    const auto point_at = [&](std::size_t i) {
+        return view.point(ridge[i].row, ridge[i].column, view.out(ridge[i].row, ridge[i].column));
     };
-    const auto on_skin = [&](const Vec3& ridge) {
-        return head.skin_tree.closest(ridge - Vec3(0, 0, kBehindRidge_m))->point;
+    const auto on_skin = [&](const Vec3& p) {
+        return head.skin_tree.closest(p - Vec3(0, 0, kBehindRidge_m))->point;
     };
-    RidgePlace at = *summit, lowest = at;
-    double greatest = view.step_behind(at.row, at.column), before = greatest;
-    for (int row = at.row - 1; row >= 0; --row) {
-        const int aside = cells(kAside_m);
-        RidgePlace next{row, std::max(0, at.column - aside)};
-        for (int j = next.column; j <= std::min(view.columns() - 1, at.column + aside); ++j)
-            if (view.out(row, j) > out_at(next)) next.column = j;
-        if (!std::isfinite(out_at(next))) return std::nullopt;
-        const double step = view.step_behind(row, next.column);
+    double greatest = 0, before = 0;
+    std::size_t lowest = 0;
+    Vec3 end = Vec3::Zero();  // where the tragus ends if no notch ends it
+    bool ended = false;
+    for (std::size_t i = 0; i < ridge.size(); ++i) {
+        const double step = view.step_behind(ridge[i].row, ridge[i].column);
         greatest = std::max(greatest, step);
-        if (step <= kStepLeft * greatest) {
+        if (!ended && step <= kStepLeft * greatest) {
             // Between two rows
             const double share = (before - kStepLeft * greatest) / (before - step);
-            return on_skin((1 - share) * point_at(at) + share * point_at(next));
+            end = (1 - share) * point_at(i - 1) + share * point_at(i);
+            ended = true;
+        }
+        if (step <= kStepAtNotch * greatest) {
+            const auto notch = sharp_notch(view, ridge, i);
+            return Tragion{on_skin(notch ? point_at(*notch) : end), notch.has_value()};
         }
         // At the notch, the ridge begins to rise to the helix.
-        if (out_at(next) < out_at(lowest)) lowest = next;
-        if (out_at(next) > out_at(lowest) + kRise_m) return on_skin(point_at(lowest));
-        at = next;
+        const auto out_at = [&](std::size_t k) { return view.out(ridge[k].row, ridge[k].column); };
+        if (out_at(i) < out_at(lowest)) lowest = i;
+        if (out_at(i) > out_at(lowest) + kRise_m) return Tragion{on_skin(point_at(lowest)), false};
         before = step;
     }
     return std::nullopt;
