@@ -72,6 +72,8 @@ struct PhoneEntry {
         return (place == "palatal" || place == "velar" || place == "uvular") &&
                (is_stop() || manner == "nasal");
     }
+    /// Whether the tip of the tongue touches the ridge behind the upper teeth: t d n l.
+    bool closes_ridge() const { return value_of(target, Parameter::kTipHeight) >= 1; }
 };
 
 /// The symbol of a pause.

@@ -61,6 +61,8 @@ constexpr double kClosureJaw_mm = 5.5, kLabiodentalJaw_mm = 6, kSibilantJaw_mm =
 constexpr double kSoftContact = 0.6;
 // The dorsum touches the palate from the closure of k on, and leaves it at the release; it presses most in between.
 constexpr double kTouchingBody = 1.2, kBodyRelease_s = 0.010;
+// The tip is at the ridge from soon after the closure of t on.
+constexpr double kTouchingTip = 0.97, kTipTouches_s = 0.005;
 
 double tau_of(PhoneClass kind, Parameter parameter) {
     const ClassTimes& times = kTimes[static_cast<std::size_t>(kind)];
@@ -264,6 +266,11 @@ class Planner {
         if (entries_[i].closes_palate())
             bound(i, Parameter::kBodyHeight, closure_s(i),
                   std::max(closure_s(i), release_s(i) - kBodyRelease_s), kTouchingBody, kInfinite);
+        if (entries_[i].closes_ridge()) {
+            const double touch_s = closure_s(i) + kTipTouches_s;
+            bound(i, Parameter::kTipHeight, touch_s,
+                  std::max(touch_s, release_s(i) - kBodyRelease_s), kTouchingTip, kInfinite);
+        }
         const double a = from_s - kContactLead_s, b = from_s + kContactTo * length_s;
         if (kind == PhoneClass::kLabiodental || kind == PhoneClass::kLabiodentalSoft) {
             // Bilabial fricatives are of the soft class, too, but have nothing to do with the teeth.
