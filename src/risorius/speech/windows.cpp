@@ -61,6 +61,7 @@ constexpr double kClosureJaw_mm = 5.5, kLabiodentalJaw_mm = 6, kSibilantJaw_mm =
 constexpr double kSoftContact = 0.6;
 // The dorsum touches the palate from the closure of k on, and leaves it at the release; it presses most in between.
 constexpr double kTouchingBody = 1.2, kBodyRelease_s = 0.010;
+constexpr double kPartedBody = 1.05, kBodyParts_s = 0.025, kBodyApart_s = 0.060;
 // The tip is at the ridge from soon after the closure of t on.
 constexpr double kTouchingTip = 0.97, kTipTouches_s = 0.005;
 
@@ -263,9 +264,14 @@ class Planner {
                 bound(i, Parameter::kGap, open_s, close_s,
                       std::min(kOpenGap_mm, kOpenFraction * gap), kInfinite);
         }
-        if (entries_[i].closes_palate())
+        if (entries_[i].closes_palate()) {
             bound(i, Parameter::kBodyHeight, closure_s(i),
                   std::max(closure_s(i), release_s(i) - kBodyRelease_s), kTouchingBody, kInfinite);
+            // It is away from the palate soon, also before a close vowel.
+            if (i + 1 >= entries_.size() || !entries_[i + 1].closes_palate())
+                bound(i, Parameter::kBodyHeight, release_s(i) + kBodyParts_s,
+                      release_s(i) + kBodyApart_s, -kInfinite, kPartedBody);
+        }
         if (entries_[i].closes_ridge()) {
             const double touch_s = closure_s(i) + kTipTouches_s;
             bound(i, Parameter::kTipHeight, touch_s,
