@@ -194,6 +194,24 @@ TEST(SpokenTongue, TouchesTheRidgeWithItsTipInTDNAndL) {
     }
 }
 
+TEST(SpokenTongue, IsBetweenTheTeethInTh) {
+    const auto foremost = [&](const Points& at, const auto& counts) {
+        double z = -1;
+        for (long v = 0; v < at.rows(); ++v)
+            if (counts(v)) z = std::max(z, at(v, 2));
+        return z;
+    };
+    const auto is_tongue = [](long v) { return tongue_in_mouth().is_tongue(v); };
+    const rig::Head& head = tongue_in_mouth().head();
+    const double teeth = foremost(head.vertices, [&](long v) {
+        return head.carrier[static_cast<std::size_t>(v)] == rig::Carrier::kSkull;
+    });
+    // Between two i the teeth leave less room.
+    const double t_s = kBodyClosure_s + 0.06;
+    EXPECT_GT(foremost(tongue_in_mouth().at(vcv("ɑ", "θ", "ɑ"), t_s), is_tongue), teeth - 4e-3);
+    EXPECT_LT(foremost(tongue_in_mouth().at(vcv("ɑ", "t", "ɑ"), t_s), is_tongue), teeth - 5e-3);
+}
+
 TEST(SpokenTongue, LiesStillBeforeAndAfterSpeechAndIsTheSameTwice) {
     const track::Timeline one = vcv("ɑ", "k", "i"), two = vcv("ɑ", "k", "i");
     for (double t_s = 0; t_s < 2; t_s += 0.01) {
