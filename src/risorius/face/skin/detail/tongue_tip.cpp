@@ -47,6 +47,8 @@ void TongueTip::raise(double up, double share, std::vector<TonguePoint>& points)
     if (!tip) return;
     Vec3 way = ridge_ - tip->p;
     way.x() = 0;
+    // On a head whose tongue is one piece with the floor of the mouth, a curl may have taken it beyond.
+    if (way.y() <= 0) return;
     if (const double far = way.norm(); far > reach_m_) way *= reach_m_ / far;
     way *= share * geom::smoothstep(0, kTipAtRidge, up);
     for (TonguePoint& point : points) {
