@@ -73,6 +73,8 @@ TEST(ShapeGoals, OtherSetsHaveWhatMovesTheFace) {
     EXPECT_EQ(goal(muscles, "zygomaticus_major.r").partner, *muscles.index("zygomaticus_major.l"));
     EXPECT_TRUE(muscles.index("levator_palpebrae_superioris_relaxed.l"));
     EXPECT_FALSE(muscles.index("digastric_anterior.l"));
+    for (const char* tongue : {"tongue_up", "tongue_body_up", "tongue_body_back"})
+        EXPECT_TRUE(muscles.index(tongue)) << tongue;
     EXPECT_EQ(set_of("visemes").goals.size(), 15u);
     // A half comes with the other one, a corrective with what it corrects
     EXPECT_EQ(set_of("arkit52", {"mouthSmileLeft"}).goals.size(), 2u);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The body of the tongue rises to the palate and not through it, keeps its volume, leaves its tip alone, and stays between the teeth.
+// The tip rises to the ridge behind the upper teeth.
 #include "risorius/face/skin/detail/tongue.h"
 
 #include <gtest/gtest.h>
@@ -211,6 +212,65 @@ TEST(TongueBody, StaysBetweenTheTeeth) {
                         << teeth << ", " << up << " at " << place << ", jaw " << jaw;
         }
     }
+}
+
+/// The least distance from the tip of the tongue to the upper gums, mm.
+double ridge_gap_mm(const Points& at) {
+    static const Triangles gums = triangles_of_group("gums_upper");
+    double foremost = -1, best = 1e300;
+    for (long v = 0; v < at.rows(); ++v)
+        if (oral_head().carrier[static_cast<std::size_t>(v)] == rig::Carrier::kTongue)
+            foremost = std::max(foremost, oral_head().vertices(v, 2));
+    for (long v = 0; v < at.rows(); ++v) {
+        if (oral_head().carrier[static_cast<std::size_t>(v)] != rig::Carrier::kTongue ||
+            oral_head().vertices(v, 2) < foremost - 1e-3)
+            continue;
+        for (long f = 0; f < gums.rows(); ++f)
+            for (int k = 0; k < 3; ++k)
+                best = std::min(best, (at.row(v) - at.row(gums(f, k))).norm());
+    }
+    return 1e3 * best;
+}
+
+TongueDrive with_tip(double up, double jaw_open) {
+    return {.up = up, .mandible = jaw_opened(jaw_open)};
+}
+
+// The jaw is open by 10 mm at 0.25. Gums have a point every 0.8 mm.
+TEST(TongueTip, TouchesTheRidgeHoweverFarTheJawIsOpen) {
+    for (const double jaw : {0.0, 0.05, 0.12, 0.2, 0.3}) {
+        EXPECT_LT(ridge_gap_mm(oral_mouth(with_tip(kTipAtRidge, jaw))), 0.8) << jaw;
+        EXPECT_GT(ridge_gap_mm(oral_mouth(with_tip(0, jaw))), 8) << jaw;
+        double before = ridge_gap_mm(oral_mouth(with_tip(0, jaw)));
+        for (double up = 0.05; up < kTipAtRidge; up += 0.05) {
+            const double gap = ridge_gap_mm(oral_mouth(with_tip(up, jaw)));
+            EXPECT_LT(gap, before + 0.01) << up << ", jaw " << jaw;
+            EXPECT_LT(before - gap, 3) << up << ", jaw " << jaw;
+            before = gap;
+        }
+    }
+}
+
+TEST(TongueTip, StaysBetweenTheTeethAndKeepsItsVolume) {
+    for (const double jaw : {0.05, 0.12, 0.3}) {
+        const Points flat = oral_mouth(with_tip(0, jaw));
+        for (const double up : {0.4, kTipAtRidge, 1.0}) {
+            const Points raised = oral_mouth(with_tip(up, jaw));
+            EXPECT_NEAR(tongue_volume(raised) / tongue_volume(flat), 1, 0.08) << up << " " << jaw;
+            for (const char* teeth : {"teeth_upper", "teeth_lower", "gums_upper"})
+                EXPECT_LT(depth_in_teeth_mm(raised, teeth), depth_in_teeth_mm(flat, teeth) + 0.5)
+                    << teeth << ", " << up << ", jaw " << jaw;
+        }
+    }
+}
+
+// A tongue that is out licks the lip instead.
+TEST(TongueTip, LeavesATongueThatIsOut) {
+    const TongueDrive out{.out = 0.6, .up = 0.5, .mandible = jaw_opened(0.5)};
+    TongueDrive level = out;
+    level.up = 0;
+    EXPECT_GT(ridge_gap_mm(oral_mouth(out)), 10);
+    EXPECT_GT((oral_mouth(out) - oral_mouth(level)).rowwise().norm().maxCoeff(), 2e-3);
 }
 
 TEST(TongueBody, OfASimulatedFaceTouchesItsPalate) {

@@ -108,6 +108,24 @@ TEST(Trajectory, TheFaceMovesBeforeTheFirstSoundAndIsStillInSilence) {
     }
 }
 
+/// The jaw rises most in s and t, less in l, least in k (Keating et al. 1994). Lips do not stay as far apart as in the vowels: what
+/// they add to the opening of the jaw is at most twice what they add in a.
+TEST(Trajectory, TheJawRisesBetweenOpenVowelsAndTheLipsFollowIt) {
+    constexpr double kLipsInA_mm = 3, kGapOfJaw = 0.9;
+    const auto middle = [](const char* consonant, Parameter parameter) {
+        return curves({{"ɑ", .14}, {consonant, .09}, {"ɑ", .14}}).at(parameter, 0.4 + 0.14 + 0.045);
+    };
+    const auto jaw = [&](const char* consonant) { return middle(consonant, Parameter::kJaw); };
+    EXPECT_LT(jaw("s"), jaw("t"));
+    EXPECT_LT(jaw("t"), 8.5);
+    EXPECT_LT(jaw("t"), jaw("l"));
+    EXPECT_LT(jaw("l"), jaw("k") - 1);
+    EXPECT_LT(jaw("j"), 8.5);
+    for (const char* consonant : {"t", "d", "n", "l", "s", "ʃ", "j", "k", "r", "θ"})
+        EXPECT_LT(middle(consonant, Parameter::kGap) - kGapOfJaw * jaw(consonant), 2 * kLipsInA_mm)
+            << consonant;
+}
+
 TEST(Trajectory, CurvesStayWithinTheirTargets) {
     const ArticulationCurves c = curves({{"i", .09}, {"s", .10}, {"t", .08}, {"u", .12}});
     for (double t = c.start_s; t < 1.5; t += 0.001) {

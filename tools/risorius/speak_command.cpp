@@ -103,6 +103,8 @@ talk::CheckedSpeech render_speech(SpeakArguments& arguments, talk::SpokenResult&
     talk::ScriptChecker checker(files, animate::quality_of(arguments.render));
     talk::CheckedSpeech best;
     std::vector<speech::ClosureChange> best_adjust;
+    talk::TriedClosures tried;
+    bool alone = false;  // whether vowels were widened beside the best changes of one simulation
     for (int pass = 0;; ++pass) {
         talk::CheckedSpeech checked = checker.check(
             JsonCursor::from_json(script, script_file.string()), [&](double fraction) {
@@ -114,15 +116,22 @@ talk::CheckedSpeech render_speech(SpeakArguments& arguments, talk::SpokenResult&
             best_adjust = options.adjust;
             save();
         }
-        if (pass >= arguments.passes) break;
+        tried.add(closures, options.adjust);
         std::vector<speech::ClosureChange> changes = talk::changes_for(closures, options.adjust);
+        if (pass >= arguments.passes) {
+            // The best of each closure need not be good together.
+            if (arguments.passes == 0 || alone || same(best_adjust, options.adjust)) break;
+            changes = talk::widened(best.vowels.back(), best_adjust);
+            if (same(changes, best_adjust)) break;
+            alone = true;
+        }
         // Closures come first: vowels are widened in the last pass, which counts only if no closure is lost.
         const bool all_held = best.held == best.total,
                    all_well = all_held && best.opened == best.total && best.in_time == best.total;
         const bool last =
-            pass + 1 >= arguments.passes || (pass > 0 && all_well) || same(changes, options.adjust);
-        if (last) {
-            changes = talk::widened(best.vowels.back(), all_held ? best_adjust : changes);
+            pass + 1 == arguments.passes || (pass > 0 && all_well) || same(changes, options.adjust);
+        if (last && !alone) {
+            changes = talk::widened(best.vowels.back(), all_held ? tried.best() : changes);
             if (same(changes, options.adjust)) break;
             pass = arguments.passes - 1;
         }

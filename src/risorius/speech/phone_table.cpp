@@ -53,7 +53,7 @@ const std::vector<std::string>& phone_class_names() {
     static const std::vector<std::string> names{
         "vowel",       "vowel_spread",     "vowel_round", "vowel_weak",     "closure",
         "labiodental", "labiodental_soft", "sibilant",    "sibilant_round", "round_cons",
-        "tongue",      "neutral",          "silence"};
+        "tongue",      "tongue_tip",       "glide",       "neutral",        "silence"};
     return names;
 }
 

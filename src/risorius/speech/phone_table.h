@@ -47,7 +47,9 @@ enum class PhoneClass {
     kSibilant,         ///< teeth nearly closed: s z
     kSibilantRound,    ///< and lips pushed out: sh
     kRoundConsonant,   ///< w, English r
-    kTongue,           ///< t d n l k g: the lips are those of the neighbours
+    kTongue,           ///< k g r: the lips are those of the neighbours
+    kTongueTip,        ///< t d n l th: so are they, but the jaw rises
+    kGlide,            ///< j: as a short i
     kNeutral,          ///< h, glottal stop: the shape of what follows
     kSilence
 };
@@ -70,6 +72,8 @@ struct PhoneEntry {
         return (place == "palatal" || place == "velar" || place == "uvular") &&
                (is_stop() || manner == "nasal");
     }
+    /// Whether the tip of the tongue touches the ridge behind the upper teeth: t d n l.
+    bool closes_ridge() const { return value_of(target, Parameter::kTipHeight) >= 1; }
 };
 
 /// The symbol of a pause.

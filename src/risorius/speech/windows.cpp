@@ -23,12 +23,14 @@ constexpr ClassTimes kTimes[] = {
     {30, 22, 45, 40, 60, 45},        // vowel_round
     {60, 40, 110, 110, 80, 80},      // vowel_weak
     {40, 18, 90, 100, 120, 120},     // closure
-    {60, 25, 80, 80, 120, 120},      // labiodental
+    {60, 25, 55, 50, 120, 120},      // labiodental
     {70, 35, 90, 90, 120, 120},      // labiodental_soft
-    {35, 70, 90, 150, 30, 50},       // sibilant
-    {40, 60, 50, 45, 35, 50},        // sibilant_round
+    {35, 29, 90, 150, 30, 50},       // sibilant
+    {40, 30, 50, 45, 35, 50},        // sibilant_round
     {45, 35, 45, 45, 50, 45},        // round_cons
-    {80, 100, 160, 180, 25, 45},     // tongue
+    {60, 75, 160, 180, 25, 45},      // tongue
+    {38, 45, 160, 180, 25, 45},      // tongue_tip
+    {34, 28, 160, 180, 60, 45},      // glide
     {140, 140, 200, 200, 200, 200},  // neutral
     {90, 70, 120, 120, 90, 90},      // silence
 };
@@ -48,6 +50,8 @@ constexpr double kOpenGap_mm = 1.5, kOpenFraction = 0.3, kAfterLabial_s = 0.040;
 constexpr double kPartsFrom_s = 0.012, kPartsTo_s = 0.030, kParts_mm = 1;
 constexpr double kContactLead_s = 0.015;  // labiodentals: the sound begins when the lip is there
 constexpr double kContactTo = 0.85;
+constexpr double kRelaxingPause_s = 0.15, kRelaxFrom = 0.35, kRelaxTo = 0.65;
+constexpr double kRelaxedJaw_mm = 1.5, kRelaxedGap_mm = 1.2;  // of short pauses
 constexpr double kStill = 0.02;                    // rest in long pauses, in units of the parameter
 constexpr double kSettle_s = 0.2, kWake_s = 0.15;  // of a long pause: closing, opening
 // Lips close before the first sound of an utterance.
@@ -59,6 +63,9 @@ constexpr double kClosureJaw_mm = 5.5, kLabiodentalJaw_mm = 6, kSibilantJaw_mm =
 constexpr double kSoftContact = 0.6;
 // The dorsum touches the palate from the closure of k on, and leaves it at the release; it presses most in between.
 constexpr double kTouchingBody = 1.2, kBodyRelease_s = 0.010;
+constexpr double kPartedBody = 1.05, kBodyParts_s = 0.025, kBodyApart_s = 0.060;
+// The tip is at the ridge from soon after the closure of t on.
+constexpr double kTouchingTip = 0.97, kTipTouches_s = 0.005;
 
 double tau_of(PhoneClass kind, Parameter parameter) {
     const ClassTimes& times = kTimes[static_cast<std::size_t>(kind)];
@@ -193,7 +200,11 @@ class Planner {
 
     void pause(std::size_t i) {
         const double length_s = end_of(i) - start_of(i);
-        if (length_s <= kClosingPause_s) return;  // the mouth stays on its way
+        if (length_s <= kClosingPause_s) {
+            // Too short to close; a mouth that was held open would look frozen.
+            if (length_s > kRelaxingPause_s) relax(i, length_s);
+            return;
+        }
         // A closure after the pause begins before it ends.
         double from_s = start_of(i) + kSettle_s, to_s = end_of(i) - kWake_s;
         if (is_closure(i + 1)) to_s = std::min(to_s, closure_s(i + 1));
@@ -205,6 +216,15 @@ class Planner {
             return;
         }
         rest(from_s, to_s, static_cast<int>(i));
+    }
+
+    void relax(std::size_t i, double length_s) {
+        const double from_s = start_of(i) + kRelaxFrom * length_s,
+                     to_s = start_of(i) + kRelaxTo * length_s;
+        window(i, Parameter::kJaw, from_s, to_s, kRelaxedJaw_mm, 1);
+        window(i, Parameter::kGap, from_s, to_s, kRelaxedGap_mm, 1);
+        for (const Parameter p : {Parameter::kWidth, Parameter::kProtrusion})
+            window(i, p, from_s, to_s, 0, 1);
     }
 
     void phone(std::size_t i) {
@@ -259,9 +279,19 @@ class Planner {
                 bound(i, Parameter::kGap, open_s, close_s,
                       std::min(kOpenGap_mm, kOpenFraction * gap), kInfinite);
         }
-        if (entries_[i].closes_palate())
+        if (entries_[i].closes_palate()) {
             bound(i, Parameter::kBodyHeight, closure_s(i),
                   std::max(closure_s(i), release_s(i) - kBodyRelease_s), kTouchingBody, kInfinite);
+            // It is away from the palate soon, also before a close vowel.
+            if (i + 1 >= entries_.size() || !entries_[i + 1].closes_palate())
+                bound(i, Parameter::kBodyHeight, release_s(i) + kBodyParts_s,
+                      release_s(i) + kBodyApart_s, -kInfinite, kPartedBody);
+        }
+        if (entries_[i].closes_ridge()) {
+            const double touch_s = closure_s(i) + kTipTouches_s;
+            bound(i, Parameter::kTipHeight, touch_s,
+                  std::max(touch_s, release_s(i) - kBodyRelease_s), kTouchingTip, kInfinite);
+        }
         const double a = from_s - kContactLead_s, b = from_s + kContactTo * length_s;
         if (kind == PhoneClass::kLabiodental || kind == PhoneClass::kLabiodentalSoft) {
             // Bilabial fricatives are of the soft class, too, but have nothing to do with the teeth.

@@ -9,7 +9,8 @@
 ///
 /// Sources: P. Keating 1990, UCLA Working Papers in Phonetics 69 (windows); S. Ohman 1966, J. Acoust. Soc. Am. 39, 151-168
 /// (consonants on a base of vowels); A. Lofqvist & V. Gracco 1997, J. Acoust. Soc. Am. 102, 877-893 (lips press in closures); P. Edwards et
-/// al. 2016, ACM Trans. Graph. 35(4) (JALI: style of jaw and lips). The time constants are estimates of this project.
+/// al. 2016, ACM Trans. Graph. 35(4) (JALI: style of jaw and lips); P. Keating et al. 1994, J. Phonetics 22, 407-422 (the jaw is high in
+/// s and t whatever the vowels are, lower in l, and free in h). The time constants are estimates of this project.
 #pragma once
 
 #include <optional>

@@ -33,7 +33,7 @@ CheckedSpeech ScriptChecker::check(const JsonCursor& json,
             out.reached += check.reached();
             out.held += check.held();
             out.in_time += check.in_time();
-            out.opened += check.open_s < check.release_s + 0.05;
+            out.opened += check.opened();
         }
         out.vowels.push_back(placed.face ? check_vowels(out.track, placed, table)
                                          : std::vector<VowelCheck>());

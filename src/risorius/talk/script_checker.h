@@ -21,7 +21,7 @@ struct CheckedSpeech {
     double missing_mm = 0;  ///< by how much the vowels open less than planned, mean
     int reached = 0, held = 0, total = 0;
     int in_time = 0;  ///< closures in which the lips meet when they should
-    int opened = 0;   ///< closures that are open again 50 ms after their release
+    int opened = 0;   ///< closures that are open again soon after their release
 };
 
 class ScriptChecker {

@@ -170,6 +170,8 @@ void collect_muscles(const rig::RigDescription& rig, Collector& out) {
     out.add_channel("mouth_pressure", Kinematic::kMouthPressure, kPuff_pa);
     out.add_channel("tongue_out", Kinematic::kTongueOut, 1);
     out.add_channel("tongue_up", Kinematic::kTongueUp, 1);
+    out.add_channel("tongue_body_up", Kinematic::kTongueBodyUp, 1);
+    out.add_channel("tongue_body_back", Kinematic::kTongueBodyBack, 1);
     for (const auto& [name, left, right, value] :
          {std::tuple{"gaze_up", Kinematic::kGazePitchLeft, Kinematic::kGazePitchRight,
                      kUprightGaze_deg},

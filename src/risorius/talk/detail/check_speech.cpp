@@ -20,8 +20,8 @@ constexpr double kHeldFrom_s = 0.010, kHeldTo_s = 0.005;
 constexpr double kOpenGap_mm = 0.5;
 // How far around a closure its contact and its opening are looked for
 constexpr double kBefore_s = 0.15, kAfter_s = 0.2;
-// Lateness that is left as it is, and the most that one pass changes
-constexpr double kLate_s = 0.010, kMaxEarlier_s = 0.03, kOpensLate_s = 0.017;
+// The most that one pass changes
+constexpr double kMaxEarlier_s = 0.03;
 // Lips that meet too early are too near in the sound before: it opens them further, at most to this beyond the plan.
 constexpr double kWiderBefore_mm = 1.5, kWidestBefore_mm = 4.5;
 constexpr double kDeeper = 2, kDeeperAtLeast_mm = 0.6, kDeepest_mm = 8;
@@ -173,9 +173,9 @@ ClosureChange change_for(const ClosureCheck& check, const ClosureChange& before)
     if (leaks || late_s > kLate_s) {
         const double over_s = std::isnan(check.contact_s) ? late_s : late_s - kLate_s / 2;
         change.earlier_s = std::clamp((leaks ? kEarlier : 1) * over_s, 0.0, kMaxEarlier_s);
-    } else if (late_s < -kInTime_s && !check.from_rest) {
+    } else if (late_s < -kEarly_s && !check.from_rest) {
         // What was too much of an earlier change; it may have shut the vowel before.
-        change.earlier_s = std::max(late_s + kInTime_s, -kMaxEarlier_s / 2);
+        change.earlier_s = std::max(late_s + kEarly_s, -kMaxEarlier_s / 2);
     }
     if (too_early)
         change.shorter_s = -std::min(early_s, kMaxEarlier_s);
@@ -199,7 +199,7 @@ std::vector<ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
             change_for(check, known != before.end() ? *known : ClosureChange{});
         const bool stuck = check.held() && !(check.open_s < check.release_s + kStuck_s);
         const bool near_before = check.held() && !check.from_rest &&
-                                 check.contact_s < check.closure_s - kInTime_s &&
+                                 check.contact_s < check.closure_s - kEarly_s &&
                                  (known == before.end() || known->earlier_s <= 0);
         if (change.deeper_mm == 0 && change.earlier_s == 0 && change.shorter_s == 0 && !stuck)
             continue;
@@ -221,6 +221,52 @@ std::vector<ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
         wider_mm = std::min(kWidestBefore_mm, wider_mm + kWiderBefore_mm);
     }
     return before;
+}
+
+namespace {
+
+/// By how much the lips meet or part at the wrong time, s.
+double off_s(const ClosureCheck& check) {
+    const double late_s = check.contact_s - check.closure_s - kLate_s,
+                 early_s = check.from_rest ? 0 : check.closure_s - kEarly_s - check.contact_s,
+                 open_s = check.open_s - check.release_s - kOpensLate_s;
+    return std::max({0.0, late_s, early_s}) + std::max(0.0, open_s);
+}
+
+bool is_better(const ClosureCheck& one, const ClosureCheck& other) {
+    if (one.held() != other.held()) return one.held();
+    if (!one.held()) return one.max_gap_mm < other.max_gap_mm;
+    const int one_in_time = one.opened() + one.in_time(),
+              other_in_time = other.opened() + other.in_time();
+    if (one_in_time != other_in_time) return one_in_time > other_in_time;
+    return off_s(one) < off_s(other);
+}
+
+}  // namespace
+
+void TriedClosures::add(const std::vector<ClosureCheck>& checks,
+                        const std::vector<ClosureChange>& changes) {
+    const auto change_of = [&](int phone) {
+        const auto found = std::find_if(changes.begin(), changes.end(),
+                                        [&](const ClosureChange& c) { return c.phone == phone; });
+        return found != changes.end() ? *found : ClosureChange{phone};
+    };
+    for (std::size_t i = 0; i < checks.size(); ++i) {
+        Tried one{checks[i], change_of(checks[i].phone), change_of(checks[i].phone - 1)};
+        if (i == best_.size())
+            best_.push_back(std::move(one));
+        else if (is_better(one.check, best_[i].check))
+            best_[i] = std::move(one);
+    }
+}
+
+std::vector<ClosureChange> TriedClosures::best() const {
+    std::vector<ClosureChange> out;
+    for (const Tried& tried : best_) {
+        out.push_back(tried.change);
+        if (tried.before.wider_mm > 0) out.push_back(tried.before);
+    }
+    return out;
 }
 
 std::string speech_table(const MouthTrack& track, const std::vector<PlacedUtterance>& utterances,

@@ -32,8 +32,8 @@ MouthTrack simulate_mouth(face::Face& face, const track::Timeline& timeline, dou
 
 /// Lips are in contact below this gap, mm.
 inline constexpr double kContactGap_mm = 0.3;
-/// By how much they may meet too early or too late, s.
-inline constexpr double kInTime_s = 0.025;
+/// By how much they may meet too early or too late, and part too late, s.
+inline constexpr double kEarly_s = 0.025, kLate_s = 0.010, kOpensLate_s = 0.017;
 
 /// One closure of the lips as simulated. Times are those of the script, s.
 struct ClosureCheck {
@@ -49,9 +49,10 @@ struct ClosureCheck {
     bool held() const { return max_gap_mm < kContactGap_mm; }
     /// Whether the lips meet when they should: not much before the closure in the sound, and not much after it.
     bool in_time() const {
-        return (from_rest && contact_s <= closure_s) ||
-               std::abs(contact_s - closure_s) <= kInTime_s;
+        return contact_s <= closure_s + kLate_s && (from_rest || contact_s >= closure_s - kEarly_s);
     }
+    /// Whether they part soon after the release.
+    bool opened() const { return open_s <= release_s + kOpensLate_s; }
 };
 
 std::vector<ClosureCheck> check_closures(const MouthTrack& track, const PlacedUtterance& placed);
@@ -78,6 +79,22 @@ std::vector<speech::ClosureChange> usual_changes(const speech::Utterance& uttera
 /// what is missing, shorter or longer by the error of the release. Added to the changes that were in force.
 std::vector<speech::ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
                                                std::vector<speech::ClosureChange> before);
+
+/// Of each closure, the changes with which it was best in the simulations so far.
+class TriedClosures {
+  public:
+    void add(const std::vector<ClosureCheck>& checks,
+             const std::vector<speech::ClosureChange>& changes);
+    /// All of them together, with the changes of vowels that belong to them.
+    std::vector<speech::ClosureChange> best() const;
+
+  private:
+    struct Tried {
+        ClosureCheck check;
+        speech::ClosureChange change, before;  ///< of the closure, and of the sound before it
+    };
+    std::vector<Tried> best_;
+};
 
 /// The table OUT.speech.tsv: a row for each phone, with its times in the script and in samples, and what the mouth did.
 std::string speech_table(const MouthTrack& track, const std::vector<PlacedUtterance>& utterances,

@@ -118,6 +118,7 @@ Tongue::Tongue(const rig::Head& head, double range_m) : head_(head), range_m_(ra
     };
     lower_edge_ = edge(true);
     upper_edge_ = edge(false);
+    tip_ = TongueTip(head, upper_edge_, length_m_);
     const auto skin_at = [&](const char* landmark) {
         std::vector<int> nearest;
         const Vec3 p = head.landmark(landmark);
@@ -249,6 +250,7 @@ void Tongue::place(const TongueDrive& drive, Points& vertices) const {
                           line.at(m.along) + m.side / std::sqrt(thin) * Vec3::UnitX() +
                               m.up * thin * up + m.ahead * ahead});
     }
+    tip_.raise(drive.up, 1 - geom::smoothstep(0, kEngaged, out), points);
     if (drive.body_up != 0 || drive.body_back != 0)
         body_.raise(drive.body_up, drive.body_back, vertices, points);
     for (std::size_t i = 0; i < members_.size(); ++i)

@@ -2,13 +2,14 @@
 /// \file
 /// The tongue as a body that bends along its middle line. Its root is fixed, the rest moves with the mandible. It stretches forwards,
 /// raises or lowers its tip, and passes between teeth and lips. Where there is little room between them, it is flattened. Its body
-/// rises to the palate (tongue_body.h).
+/// rises to the palate (tongue_body.h), and its tip to the ridge behind the upper teeth (tongue_tip.h).
 #pragma once
 
 #include <vector>
 
 #include "risorius/core/types.h"
 #include "risorius/face/skin/detail/tongue_body.h"
+#include "risorius/face/skin/detail/tongue_tip.h"
 #include "risorius/rig/head.h"
 
 namespace risorius::face {
@@ -16,7 +17,7 @@ namespace risorius::face {
 /// What moves the tongue.
 struct TongueDrive {
     double out = 0;        ///< protrusion / its range, 0..1
-    double up = 0;         ///< curl of the tip, -1..1; 1 raised, -1 lowered
+    double up = 0;         ///< tip, -1..1; kTipAtRidge: at the ridge behind the teeth, -1 lowered
     double body_up = 0;    ///< -1..1; 1: its back touches the palate
     double body_back = 0;  ///< -1..1; where the body is highest, 1 at the soft palate
     Rigid mandible = Rigid::Identity();
@@ -59,6 +60,7 @@ class Tongue {
     std::vector<double> over_jaw_;  // per sample of the line, fraction of the mandible's motion
     std::vector<Member> members_;
     TongueBody body_;
+    TongueTip tip_;
     Vec3 lower_edge_, upper_edge_;            // of the incisors
     std::vector<int> lower_lip_, upper_lip_;  // skin vertices at the landmarks stoi, stos
 };
