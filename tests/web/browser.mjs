@@ -190,6 +190,15 @@ await test("what is wrong is said, and changes nothing", async () => {
   await page.locator("#message").waitFor({ state: "visible" });
   assert.match(await page.locator("#message").textContent(), /duration_s: expected \(0, 3600\], found -3/);
   assert.deepEqual(await scriptOf(page), before);
+  // A browser ignores a pattern that it cannot read, and then takes every name.
+  const fits = (name) =>
+    page.evaluate((value) => {
+      const field = document.querySelector("#save-name");
+      field.value = value;
+      return field.validity.valid;
+    }, name);
+  assert.ok(await fits("mine/wink.json"));
+  for (const name of ["/wink.json", "wink.txt"]) assert.ok(!(await fits(name)), name);
 });
 
 await test("axe finds nothing to complain of", async () => {
