@@ -175,7 +175,7 @@ export class Channels {
       "aria-label": `${label}, exact value`,
       onchange: () => this.set(name, clamp(Number(number.value), channel.min, channel.max)),
     });
-    const key = h("button", { class: "key", title: "Make a key at the playhead (K)", "aria-label": `K: make a key of ${label}`, onclick: () => this.actions.key(name) }, "K");
+    const key = h("button", { class: "key", title: "Make a key at the playhead (K)", "aria-label": `K: make a key of ${label}`, onclick: () => this.makeKey(name) }, "K");
     const release = h("button", { class: "release", title: "Let go", "aria-label": `${label}: let go`, onclick: () => this.actions.release(name) }, "×");
     const columns = channel.group === "muscles" ? this.columnsOf(channel, name) : [];
     const meter = (kind: string) => h("span", { class: `bar ${kind}` });
@@ -210,13 +210,20 @@ export class Channels {
     this.lastName = name;
     this.overrides[name] = value;
     // One message a picture is enough.
-    if (this.pending.size === 0)
-      requestAnimationFrame(() => {
-        for (const [channel, latest] of this.pending) this.actions.override(channel, latest);
-        this.pending.clear();
-      });
+    if (this.pending.size === 0) requestAnimationFrame(() => this.sendPending());
     this.pending.set(name, value);
     this.show();
+  }
+
+  private sendPending(): void {
+    for (const [channel, latest] of this.pending) this.actions.override(channel, latest);
+    this.pending.clear();
+  }
+
+  /// Makes a key of what the panel shows, also where the picture of the last change is still to come.
+  makeKey(name: string): void {
+    this.sendPending();
+    this.actions.key(name);
   }
 
   private filter(): void {

@@ -462,7 +462,7 @@ document.addEventListener("keydown", (event) => {
   else if (key === " " && !(event.target instanceof HTMLButtonElement) ) playOrPause();
   else if (key === "," || key === ".") step(key === "," ? -1 : 1);
   else if (key === "home") seek(0);
-  else if (key === "k" && channels.lastName) engine.send({ type: "key", channel: channels.lastName });
+  else if (key === "k" && channels.lastName) channels.makeKey(channels.lastName);
   else if (key === "v") showSecond(byId<HTMLSelectElement>("second-camera").value ? "" : lastSecond);
   else if (key === "m") timeline.mirror();
   else if (key === "r") recorder.toggle();

@@ -57,6 +57,21 @@ await test("a slider is an override, and K makes it a key that undo takes back",
   assert.deepEqual((await scriptOf(page)).channels.AU4, { keys: [[0, 0.6]] });
   await page.locator("#undo").click();
   await until(page, () => window.studio.script().script.channels.AU4 === undefined);
+  // Two values and K within one picture: the key has the last.
+  await page.evaluate(() => {
+    const row = document.querySelector('[data-channel="AU4"]');
+    const number = row.querySelector('input[type="number"]');
+    for (const value of ["0.99", "1"]) {
+      number.value = value;
+      number.dispatchEvent(new Event("input", { bubbles: true }));
+      number.dispatchEvent(new Event("change", { bubbles: true }));
+    }
+    row.querySelector("button.key").click();
+  });
+  await until(page, () => window.studio.script().script.channels.AU4 !== undefined);
+  assert.deepEqual((await scriptOf(page)).channels.AU4, { keys: [[0, 1]] });
+  await page.locator("#undo").click();
+  await until(page, () => window.studio.script().script.channels.AU4 === undefined);
   assert.deepEqual(await scriptOf(page), before);
 });
 
