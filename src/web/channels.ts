@@ -4,6 +4,7 @@
 /// it is made a key or let go.
 
 import { clamp, h, shown } from "./dom.js";
+import { everydayWords } from "./everyday_words.js";
 import type { Channel, DocumentMessage, Pose, State, Welcome } from "./protocol.js";
 
 export interface ChannelActions {
@@ -232,7 +233,7 @@ export class Channels {
       let any = false;
       for (const block of details.querySelectorAll<HTMLElement>(".channel")) {
         const name = block.dataset.channel!;
-        const text = `${name} ${block.querySelector(".label")!.textContent}`.toLowerCase();
+        const text = `${name} ${block.querySelector(".label")!.textContent} ${everydayWords(name)}`.toLowerCase();
         const found = words.every((word) => text.includes(word)) && (!this.onlyFavourites || this.favourites.has(name));
         block.hidden = !found;
         any ||= found;

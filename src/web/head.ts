@@ -5,16 +5,18 @@
 import * as THREE from "three";
 
 import { lean } from "./lean.js";
+import { isInMouth, MouthLight } from "./mouth_light.js";
 import type { Motion, Muscles, Picture, Pose, Scene, Skull } from "./protocol.js";
 
 export type Sight = "skin" | "wire" | "muscles" | "strain" | "skull";
 
 interface Part {
   material: string;
+  texture: number; ///< of the pictures of the mesh, or -1
   vertex: Uint32Array;
   position: THREE.BufferAttribute;
   normal: THREE.BufferAttribute;
-  colour: THREE.BufferAttribute | null;
+  colour: THREE.BufferAttribute | null; ///< of strains on the skin; of light in the mouth
   mesh: THREE.Mesh;
   skin: boolean;
 }
@@ -75,7 +77,9 @@ export class Head {
   private musclePosition: THREE.BufferAttribute | null = null;
   private sight: Sight = "skin";
   private readonly plain: Record<string, THREE.Material>;
+  private readonly pictured = new Map<string, THREE.Material>(); ///< "eye 0": of the parts with a picture of the mesh
   private readonly strainColours: THREE.Color[];
+  private readonly mouthLight: MouthLight;
 
   constructor(
     readonly scene: Scene,
@@ -84,6 +88,7 @@ export class Head {
     this.positions = scene.rest.slice();
     this.normals = new Float32Array(scene.rest.length);
     this.plain = this.materials();
+    this.mouthLight = new MouthLight(scene);
     this.strainColours = scene.strain_colours.map((c) => new THREE.Color().setRGB(...c, THREE.SRGBColorSpace));
     let count = 0;
     for (const s of scene.surfaces) count += s.triangles.length;
@@ -117,6 +122,8 @@ export class Head {
     const colour = (rgb: [number, number, number]) => new THREE.Color().setRGB(...rgb, THREE.SRGBColorSpace);
     const lit = (c: THREE.Color | number, roughness: number) =>
       new THREE.MeshStandardMaterial({ color: c, roughness, metalness: 0 });
+    // The light that comes through the lips is the colour of its vertices.
+    const behindLips = (c: number, roughness: number) => new THREE.MeshStandardMaterial({ color: c, roughness, vertexColors: true });
     return {
       skin: lit(colour(s.skin_tone), 0.55),
       eye: lit(0xe9e6e1, 0.18),
@@ -128,10 +135,10 @@ export class Head {
         blending: THREE.AdditiveBlending,
         depthWrite: false,
       }),
-      teeth: lit(0xe2d8c4, 0.3),
-      gums: lit(0xa35b57, 0.4),
-      tongue: lit(0xa8605f, 0.5),
-      mouth: lit(0x7a3d3b, 0.5),
+      teeth: behindLips(0xd8cdb8, 0.3),
+      gums: behindLips(0xa35b57, 0.4),
+      tongue: behindLips(0xa8605f, 0.5),
+      mouth: behindLips(0x7a3d3b, 0.5),
       lashes: new THREE.MeshStandardMaterial({
         color: colour(s.hair_tone).multiplyScalar(0.4),
         alphaMap: lashes(),
@@ -158,10 +165,13 @@ export class Head {
     geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 1);
     const mesh = new THREE.Mesh(geometry, this.plain[s.material] ?? this.plain.matte);
     mesh.frustumCulled = false;
+    const light = isInMouth(s.material) ? new THREE.BufferAttribute(new Float32Array(3 * s.vertex.length), 3) : null;
+    if (light) geometry.setAttribute("color", light.setUsage(THREE.DynamicDrawUsage));
     mesh.renderOrder = s.material === "cornea" ? 2 : s.material === "lashes" ? 1 : 0;
-    return { material: s.material, vertex: s.vertex, position, normal, colour: null, mesh, skin: s.material === "skin" };
+    return { material: s.material, texture: s.texture, vertex: s.vertex, position, normal, colour: light, mesh, skin: s.material === "skin" };
   }
 
+  /// A picture of a material, or of the mesh by its number.
   usePicture(picture: Picture): void {
     const texture = new THREE.DataTexture(picture.rgba.slice(), picture.width_px, picture.height_px, THREE.RGBAFormat);
     texture.colorSpace = THREE.SRGBColorSpace;
@@ -169,17 +179,28 @@ export class Head {
     // Rows come from the top, and texture coordinates begin at the lower left corner.
     texture.repeat.set(1, -1);
     texture.offset.set(0, 1);
-    texture.wrapS = texture.wrapT = THREE.ClampToEdgeWrapping;
+    const ofMesh = /^\d+$/.test(picture.material);
+    texture.wrapS = texture.wrapT = ofMesh ? THREE.RepeatWrapping : THREE.ClampToEdgeWrapping;
     texture.generateMipmaps = true;
     texture.minFilter = this.isLean ? THREE.LinearMipmapNearestFilter : THREE.LinearMipmapLinearFilter;
     texture.magFilter = THREE.LinearFilter;
     texture.needsUpdate = true;
-    const material = this.plain[picture.material] as THREE.MeshStandardMaterial | undefined;
-    if (!material) return;
+    const parts = this.parts.filter((part) => ofMesh && part.texture === Number(picture.material));
+    for (const { material } of parts) this.pictured.set(`${material} ${picture.material}`, (this.plain[material] ?? this.plain.matte).clone());
+    const materials = ofMesh ? parts.map((part) => this.materialOf(part)) : [this.plain[picture.material]];
+    for (const material of materials) this.paint(material as THREE.MeshStandardMaterial | undefined, texture);
+    this.show(this.sight);
+  }
+
+  private materialOf({ material, texture }: Part): THREE.Material {
+    return this.pictured.get(`${material} ${texture}`) ?? this.plain[material] ?? this.plain.matte;
+  }
+
+  private paint(material: THREE.MeshStandardMaterial | undefined, texture: THREE.Texture): void {
+    if (!material || !("map" in material)) return;
     material.map = texture;
     material.color.set(0xffffff);
     material.needsUpdate = true;
-    this.show(this.sight);
   }
 
   useMuscles(muscles: Muscles): void {
@@ -242,7 +263,7 @@ export class Head {
     this.sight = sight;
     for (const part of this.parts) {
       const skin = part.material === "skin";
-      let material = this.plain[part.material] ?? this.plain.matte;
+      let material = this.materialOf(part);
       if (skin && sight === "wire")
         material = new THREE.MeshBasicMaterial({ color: 0x9fc7f0, wireframe: true, transparent: true, opacity: 0.5 });
       if (skin && sight === "strain") {
@@ -312,6 +333,10 @@ export class Head {
       }
       part.position.needsUpdate = true;
       part.normal.needsUpdate = true;
+      if (part.colour && isInMouth(part.material)) {
+        this.mouthLight.write(p, part.vertex, part.colour.array as Float32Array);
+        part.colour.needsUpdate = true;
+      }
       if (strain && part.skin && part.colour) {
         const colour = part.colour.array as Float32Array;
         for (let i = 0; i < part.vertex.length; i++) {

@@ -15,11 +15,13 @@ import type { Sight } from "./head.js";
 import "./hosted.js";
 import { Hover } from "./hover.js";
 import { Keeper } from "./keeper.js";
+import { useKeyboard } from "./keyboard.js";
 import type { Edit } from "./key_edits.js";
 import { showLegend } from "./legend.js";
 import { NewHead } from "./newhead.js";
 import type { Binary, DocumentMessage, Pose, Scene, State, Vec, Welcome } from "./protocol.js";
 import { Recorder } from "./record.js";
+import { SmileTest } from "./smile_test.js";
 import { SpeechSound } from "./speech.js";
 import { Stage } from "./stage.js";
 import { sentenceOf } from "./sentence.js";
@@ -32,13 +34,13 @@ let scene: Scene | null = null;
 let state: State | null = null;
 let pose: Pose | null = null;
 
-function say(text: string, good = false): void {
+function say(text: string, good = false, for_s = good ? 2.5 : 7): void {
   const place = byId("message");
   place.textContent = text;
   place.classList.toggle("good", good);
   place.hidden = false;
   clearTimeout(Number(place.dataset.timer));
-  place.dataset.timer = String(setTimeout(() => (place.hidden = true), good ? 2500 : 7000));
+  place.dataset.timer = String(setTimeout(() => (place.hidden = true), 1000 * for_s));
 }
 
 const stage = new Stage(byId("stage"), {
@@ -121,7 +123,18 @@ const recorder = new Recorder({
   say: (text) => say(text, true),
 });
 
-const newHead = new NewHead({ ask: (message) => engine.ask(message), open: (path) => engine.send({ type: "open", path }) });
+const newHead = new NewHead({
+  ask: (message) => engine.ask(message),
+  open: (path, smile) => {
+    if (smile) smileTest.want();
+    engine.send({ type: "open", path });
+  },
+});
+
+const smileTest = new SmileTest({
+  override: (channel, value) => engine.send({ type: "override", channel, value }),
+  say: (text) => say(text, true, 12),
+});
 
 function edit(edits: Edit[], gesture?: string): void {
   if (engine.open) engine.send(gesture ? { type: "edit", edits, gesture } : { type: "edit", edits });
@@ -206,7 +219,7 @@ function takeState(message: State): void {
   timeline.useState(message);
   speech.follow(message.t_s, message.playing);
   stage.showPulls(message.pulls);
-  if (pose && welcome && (message.resting || !message.playing)) write("twin", sentenceOf(message, pose, welcome.columns));
+  smileTest.useState(message);
 }
 
 function takeBinary(message: Binary): void {
@@ -216,6 +229,7 @@ function takeBinary(message: Binary): void {
       stage.use(scene);
       hover.useScene(scene);
       fillLandmarks(scene);
+      smileTest.useScene(scene);
       setSight(byId<HTMLSelectElement>("sight").value as Sight);
       break;
     }
@@ -247,6 +261,9 @@ function takeBinary(message: Binary): void {
       stage.take(pose);
       channels.meters(pose);
       hover.usePose(pose);
+      smileTest.usePose(pose);
+      // The state of the same moment came before.
+      if (state && welcome && (state.resting || !state.playing)) write("twin", sentenceOf(state, pose, welcome.columns));
       // The next pose is asked for when this one is on the screen.
       requestAnimationFrame(() => engine.credit());
       document.body.dataset.step = String(pose.step);
@@ -449,32 +466,26 @@ for (const tab of document.querySelectorAll<HTMLButtonElement>(".tabs button"))
       one.setAttribute("aria-pressed", String(one === tab));
   });
 
-document.addEventListener("keydown", (event) => {
-  const typing = event.target instanceof HTMLInputElement && !["range", "checkbox"].includes(event.target.type);
-  if (document.querySelector("dialog[open]")) return;
-  const command = event.ctrlKey || event.metaKey;
-  const key = event.key.toLowerCase();
-  if (command && key === "s") files.save();
-  else if (command && (key === "y" || (key === "z" && event.shiftKey))) engine.send({ type: "redo" });
-  else if (command && key === "z" && !typing) undo();
-  else if (command && key === "a" && !typing) timeline.selectAll();
-  else if (command || typing || event.target instanceof HTMLSelectElement) return;
-  else if (key === " " && !(event.target instanceof HTMLButtonElement) ) playOrPause();
-  else if (key === "," || key === ".") step(key === "," ? -1 : 1);
-  else if (key === "home") seek(0);
-  else if (key === "k" && channels.lastName) channels.makeKey(channels.lastName);
-  else if (key === "v") showSecond(byId<HTMLSelectElement>("second-camera").value ? "" : lastSecond);
-  else if (key === "m") timeline.mirror();
-  else if (key === "r") recorder.toggle();
-  else if (key === "h") setHand(!stage.hand);
-  else if (key === "/") channels.focusSearch();
-  else if (key === "?") byId<HTMLDialogElement>("help-dialog").showModal();
-  else if (key === "escape") stage.letGoOfAll();
-  else if (/^[1-8]$/.test(key)) {
-    cameraSelect.value = String(Number(key) - 1);
-    stage.look(Number(key) - 1);
-  } else return;
-  event.preventDefault();
+useKeyboard({
+  save: () => files.save(),
+  undo,
+  redo: () => engine.send({ type: "redo" }),
+  selectAll: () => timeline.selectAll(),
+  playOrPause,
+  step,
+  toStart: () => seek(0),
+  makeKey: () => channels.lastName && channels.makeKey(channels.lastName),
+  toggleSecondView: () => showSecond(byId<HTMLSelectElement>("second-camera").value ? "" : lastSecond),
+  mirror: () => timeline.mirror(),
+  record: () => recorder.toggle(),
+  toggleHand: () => setHand(!stage.hand),
+  search: () => channels.focusSearch(),
+  help: () => byId<HTMLDialogElement>("help-dialog").showModal(),
+  letGo: () => stage.letGoOfAll(),
+  camera: (index) => {
+    cameraSelect.value = String(index);
+    stage.look(index);
+  },
 });
 useClipboard({ copy: () => timeline.copy(), remove: () => timeline.remove(), paste: (text, mirrored) => timeline.paste(text, mirrored) });
 

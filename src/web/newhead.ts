@@ -13,7 +13,8 @@ import type { MeshFrame, Vec } from "./protocol.js";
 export interface NewHeadActions {
   /// Returns what is wrong with the message, or null.
   ask(message: Record<string, unknown>): Promise<string | null>;
-  open(rig: string): void;
+  /// `smile`: and sees how it smiles.
+  open(rig: string, smile: boolean): void;
 }
 
 /// What the command line says, with the words of this page.
@@ -35,6 +36,7 @@ export class NewHead {
   private mesh: MeshFrame | null = null;
   private chosen = required[0];
   private folder = "";
+  private rig = ""; ///< that the last fit has made
   private readonly meshes = byId<HTMLSelectElement>("newhead-mesh");
   private readonly list = byId("newhead-list");
   private readonly parts = new NewHeadParts({
@@ -54,10 +56,9 @@ export class NewHead {
     click("newhead-find", () => void this.find());
     click("newhead-save", () => void this.send("save_landmarks", false));
     click("newhead-fit", () => void this.send("fit", false));
-    click("newhead-open", () => {
-      this.dialog.close();
-      if (this.mesh) this.actions.open(this.mesh.rig);
-    });
+    click("newhead-cancel", () => void this.actions.ask({ type: "cancel_fit" }));
+    click("newhead-open", () => this.openRig(false));
+    click("newhead-smile", () => this.openRig(true));
     this.dialog.addEventListener("keydown", (event) => this.shortcut(event));
   }
 
@@ -67,6 +68,11 @@ export class NewHead {
     if (!this.dialog.open) this.dialog.showModal();
     void this.actions.ask({ type: "meshes" });
     this.write();
+  }
+
+  private openRig(smile: boolean): void {
+    this.dialog.close();
+    this.actions.open(this.rig, smile);
   }
 
   useMeshes(files: string[]): void {
@@ -91,7 +97,7 @@ export class NewHead {
     this.parts.use(mesh, this.keptName.replace("landmarks", "parts"));
     this.stage.use(mesh, this.parts.roles);
     this.model = new LandmarkModel((p) => this.stage!.snap(p));
-    byId("newhead-open").hidden = true;
+    this.showResult(false);
     const kept = localStorage.getItem(this.keptName);
     if (kept) this.model.places = JSON.parse(kept) as Places;
     this.chosen = this.model.missing[0] ?? required[0];
@@ -176,8 +182,8 @@ export class NewHead {
     let found = { count: 0, toCheck: 0 };
     this.do(() => (found = this.model!.useFound(message.landmarks)));
     this.next();
-    if (found.toCheck > 0) this.tell(`${found.count} landmarks found. Of those that a rig needs, ${found.toCheck} are to be checked: drag them where they belong, or Enter takes them.`);
-    else this.tell(`${found.count} landmarks found.`);
+    if (found.toCheck > 0) this.tell(`${found.count} landmarks found. Some that a rig needs are to be checked: drag them where they belong, or Enter takes them.`);
+    else this.tell(`${found.count} landmarks found. You can fit.`);
   }
 
   private async send(type: "fit" | "save_landmarks", replace: boolean): Promise<void> {
@@ -185,9 +191,10 @@ export class NewHead {
     const quick = byId<HTMLInputElement>("newhead-quick").checked;
     const wrong = await this.actions.ask({ type, landmarks, quick, replace, ...this.parts.forFit });
     if (!wrong) return;
-    const name = wrong.match(/consent to replace "([^"]+)"/)?.[1];
-    if (name && confirm(`${name} exists already. Replace it?`)) await this.send(type, true);
-    else if (!name) this.tell(wrong, true);
+    const names = /consent to replace/.test(wrong) ? [...wrong.matchAll(/"([^"]+)"/g)].map(([, name]) => name) : [];
+    const question = names.length === 1 ? `${names[0]} exists already. Replace it?` : `${names.join(" and ")} exist already. Replace them?`;
+    if (names.length > 0 && confirm(question)) await this.send(type, true);
+    else if (names.length === 0) this.tell(wrong, true);
   }
 
   useSaved(path: string): void {
@@ -197,13 +204,30 @@ export class NewHead {
   useFit(message: Record<string, any>): void {
     const running = message.state === "running";
     byId<HTMLButtonElement>("newhead-fit").disabled = running;
-    if (running) return this.tell("Fitting… With calibration this takes about a minute.");
-    this.tell(message.state === "done" ? `The rig is ${message.rig}.` : "No rig could be made.", message.state !== "done");
-    byId("newhead-text").textContent = inThePage(String(message.text).trim());
-    if (message.state !== "done" && /--(part|cut-lips|repair)\b/.test(message.text)) this.parts.open();
-    byId("newhead-open").hidden = message.state !== "done";
-    if (message.state === "done") byId("newhead-open").focus();
+    byId("newhead-running").hidden = !running;
+    const percent = `${Math.round(100 * Number(message.fraction))} %`;
+    byId("new-head").textContent = running ? `New head ${percent}` : "New head";
+    if (running) {
+      byId<HTMLProgressElement>("newhead-progress").value = Number(message.fraction);
+      byId("newhead-left").textContent = `${percent} ${message.text}`;
+      this.showResult(false);
+      return this.tell(`Fitting a rig to ${message.path}`);
+    }
+    const done = message.state === "done";
+    const cancelled = message.state === "cancelled";
+    this.rig = String(message.rig);
+    this.tell(done ? `The rig is ${this.rig}.` : cancelled ? "Cancelled. No rig was written." : "No rig could be made.", !done && !cancelled);
+    byId("newhead-text").textContent = cancelled ? "" : inThePage(String(message.text).trim());
+    if (!done && /--(part|cut-lips|repair)\b/.test(message.text)) this.parts.open();
     this.write();
+    this.showResult(done);
+    if (done) byId("newhead-smile").focus();
+    byId("newhead-text").scrollIntoView({ block: "start" });
+  }
+
+  /// The buttons for the rig that has been made.
+  private showResult(yes: boolean): void {
+    byId("newhead-open").hidden = byId("newhead-smile").hidden = !yes;
   }
 
   /// What the engine could not do; false when this page is not open.
@@ -263,9 +287,10 @@ export class NewHead {
     for (const id of ["newhead-save", "newhead-propose"]) byId<HTMLButtonElement>(id).disabled = !model || Object.keys(places).length === 0;
     byId<HTMLButtonElement>("newhead-find").disabled = !model;
     const missing = model?.missing.length ?? required.length;
-    byId<HTMLButtonElement>("newhead-fit").disabled = missing > 0;
+    byId<HTMLButtonElement>("newhead-fit").disabled = missing > 0 || !byId("newhead-running").hidden;
     const unchecked = model?.unchecked.length ?? 0;
     byId("newhead-count").textContent = `${required.length - missing} of ${required.length} required${unchecked > 0 ? `, ${unchecked} to be checked` : ""}`;
+    byId("newhead-count").classList.toggle("live", unchecked > 0);
     const entry = (id: string) =>
       h("li", {}, h("button", { class: `landmark ${places[id]?.found ?? "none"}`, "aria-current": id === this.chosen ? "true" : undefined, "data-id": id, title: landmarkLabel(id), onclick: () => this.choose(id, true) }, landmarkLabel(id).replace(/^(.*), (l|r)\w+$/, (_, name, side) => `${side.toUpperCase()} ${name}`)));
     const open = this.list.querySelector("details")?.open ?? false;

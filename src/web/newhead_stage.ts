@@ -10,6 +10,7 @@ import { lean, softwareGl } from "./lean.js";
 import type { MeshFrame, Vec } from "./protocol.js";
 
 const viewAngle_deg = 20;
+const usualAspect = 0.95; ///< a head and its shoulders
 const click_px = 4;
 const near_px = 11;
 const colours: Record<Found, number> = { placed: 0x57c785, found: 0x57c785, mirrored: 0xffb454, proposed: 0x7fb6f5 };
@@ -132,7 +133,8 @@ export class NewHeadStage {
   }
 
   private look(target: THREE.Vector3, direction: THREE.Vector3, height: number): void {
-    const distance = height / 2 / Math.tan((viewAngle_deg * Math.PI) / 360);
+    // On an upright screen, the width of the head decides.
+    const distance = height / 2 / Math.tan((viewAngle_deg * Math.PI) / 360) / Math.min(1, this.camera.aspect / usualAspect);
     this.controls.target.copy(target);
     this.camera.position.copy(target).addScaledVector(direction.normalize(), distance);
     this.camera.updateProjectionMatrix();

@@ -130,7 +130,7 @@ export interface Scene {
 }
 
 export interface Picture {
-  material: string;
+  material: string; ///< or the number of a picture of the mesh
   width_px: number;
   height_px: number;
   rgba: Uint8Array;

@@ -21,6 +21,9 @@ export interface Pulls {
 }
 
 const viewAngle_deg = 14;
+const nearest_m = 0.05;
+const closeBy_m = 0.4;
+const beforeTheFace_m = 0.17;
 const keyStep_m = 1e-3;
 const keyPull = 900; ///< number of the pull that the keyboard holds
 const longPress_ms = 300;
@@ -90,7 +93,7 @@ export class Stage {
   }
 
   private view(element: HTMLElement): View {
-    const camera = new THREE.PerspectiveCamera(viewAngle_deg, 1, 0.05, 20);
+    const camera = new THREE.PerspectiveCamera(viewAngle_deg, 1, nearest_m, 20);
     const controls = new OrbitControls(camera, element);
     controls.enableDamping = false;
     controls.minDistance = 0.15;
@@ -148,6 +151,7 @@ export class Stage {
     const each = width / this.views.length;
     this.renderer.setScissorTest(true);
     this.views.forEach((view, index) => {
+      this.clip(view);
       this.renderer.setViewport(index * each, 0, each, height);
       this.renderer.setScissor(index * each, 0, each, height);
       // The light moves with the camera, as in videos.
@@ -157,6 +161,16 @@ export class Stage {
     this.placeLabels();
     this.drawn++;
     this.place.dataset.drawn = String(this.drawn);
+  }
+
+  /// From near by, what stands in the way to the face, a shoulder, is left out.
+  private clip({ camera, controls }: View): void {
+    const distance_m = camera.position.distanceTo(controls.target);
+    const kept_m = beforeTheFace_m + 2 * Math.max(0, distance_m - closeBy_m);
+    const near_m = Math.max(nearest_m, distance_m - kept_m);
+    if (Math.abs(near_m - camera.near) < 1e-4) return;
+    camera.near = near_m;
+    camera.updateProjectionMatrix();
   }
 
   private resize(): void {
@@ -220,6 +234,7 @@ export class Stage {
     const y = 1 - (2 * (event.clientY - box.top)) / box.height;
     const ray = new THREE.Raycaster();
     ray.setFromCamera(new THREE.Vector2(x, y), view.camera);
+    ray.near = view.camera.near;
     return ray;
   }
 

@@ -72,7 +72,39 @@ await test("a slider is an override, and K makes it a key that undo takes back",
   assert.deepEqual((await scriptOf(page)).channels.AU4, { keys: [[0, 1]] });
   await page.locator("#undo").click();
   await until(page, () => window.studio.script().script.channels.AU4 === undefined);
+  // K is no number: in a field of numbers it makes the key of what is typed.
+  await row.locator("input[type=number]").fill("0.3");
+  await row.locator("input[type=number]").press("k");
+  await until(page, () => window.studio.script().script.channels.AU4 !== undefined);
+  assert.deepEqual((await scriptOf(page)).channels.AU4, { keys: [[0, 0.3]] });
+  await row.locator("input[type=number]").blur();
+  await page.locator("#undo").click();
+  await until(page, () => window.studio.script().script.channels.AU4 === undefined);
   assert.deepEqual(await scriptOf(page), before);
+});
+
+await test("a smile is found by its word, and the tools stay where they are under any name", async () => {
+  await page.keyboard.press("/");
+  await page.keyboard.type("smile");
+  assert.ok(await page.locator('#channels [data-channel="AU12"]').isVisible());
+  assert.ok(!(await page.locator('#channels [data-channel="AU4"]').isVisible()));
+  await page.locator("#channels input[type=search]").fill("");
+  const before = await page.locator("#save").boundingBox();
+  const was = await page.locator("#file-name").textContent();
+  await page.evaluate(() => (document.querySelector("#file-name").textContent = "a long name of a folder/and of a script in it.json"));
+  assert.deepEqual(await page.locator("#save").boundingBox(), before);
+  await page.evaluate((name) => (document.querySelector("#file-name").textContent = name), was);
+});
+
+await test("the sentence below the face is that of the pose", async () => {
+  const number = page.locator('.row[data-name="AU2"] input[type=number]');
+  for (const value of ["1", "0"]) {
+    await number.fill(value);
+    await number.press("Enter");
+    await until(page, (v) => window.studio.state().overrides.AU2 === v && window.studio.state().resting, Number(value));
+    await until(page, (v) => document.querySelector("#twin").textContent.includes("frontalis") === (v === 1), Number(value));
+  }
+  await page.locator('.row[data-name="AU2"] button.release').click();
 });
 
 await test("a key is dragged, saved, undone 50 times, and the file is what the page shows", async () => {

@@ -6,15 +6,56 @@
 import assert from "node:assert/strict";
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
+import { deflateSync } from "node:zlib";
 
 import { end, folder, open, program, shot, source, start, test, until } from "./harness.mjs";
 
 mkdirSync(join(folder, "anna"));
 const mesh = readFileSync(join(source, "models/adult/head.obj"), "utf8");
-writeFileSync(join(folder, "anna/head.obj"), mesh);
+// Its eyes have a picture of their own: all green.
+writeFileSync(join(folder, "anna/head.obj"), "mtllib head.mtl\n" + mesh.replace(/^g (\w+)$/gm, (line, name) => `${line}\nusemtl ${name.startsWith("eye") ? "eye" : "plain"}`));
+writeFileSync(join(folder, "anna/head.mtl"), "newmtl plain\nKd 0.8 0.6 0.5\nnewmtl eye\nKd 1 1 1\nmap_Kd green.png\n");
+writeFileSync(join(folder, "anna/green.png"), greenPicture(8));
 const vertices = mesh.split("\n").filter((line) => line.startsWith("v ")).map((line) => line.split(" ").slice(1, 4).map(Number));
 const truth = Object.fromEntries(Object.entries(JSON.parse(readFileSync(join(source, "models/adult/landmarks.json"), "utf8")).landmarks).map(([id, { vertex }]) => [id, vertices[vertex]]));
 const required = "n prn sn ls sto li pg me t_l t_r en_l en_r ex_l ex_r ps_l ps_r pi_l pi_r ch_l ch_r".split(" ");
+function crc32(bytes) {
+  let crc = ~0;
+  for (const byte of bytes) {
+    crc ^= byte;
+    for (let bit = 0; bit < 8; bit++) crc = (crc >>> 1) ^ (crc & 1 ? 0xedb88320 : 0);
+  }
+  return ~crc >>> 0;
+}
+/// A PNG of `size` x `size` green pixels.
+function greenPicture(size) {
+  const chunk = (type, data) => {
+    const body = Buffer.concat([Buffer.from(type), data]);
+    const [length, check] = [Buffer.alloc(4), Buffer.alloc(4)];
+    length.writeUInt32BE(data.length);
+    check.writeUInt32BE(crc32(body));
+    return Buffer.concat([length, body, check]);
+  };
+  const header = Buffer.alloc(13);
+  header.writeUInt32BE(size, 0);
+  header.writeUInt32BE(size, 4);
+  header.set([8, 2], 8); // 8 bits, RGB
+  const row = Buffer.from([0, ...Array.from({ length: size }, () => [0, 220, 0]).flat()]);
+  const signature = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
+  return Buffer.concat([signature, chunk("IHDR", header), chunk("IDAT", deflateSync(Buffer.concat(Array.from({ length: size }, () => row)))), chunk("IEND", Buffer.alloc(0))]);
+}
+/// The colour in the middle of what is seen there: r, g, b.
+async function colourAt(page, x, y) {
+  const png = await page.screenshot({ clip: { x: Math.round(x), y: Math.round(y), width: 1, height: 1 } });
+  return page.evaluate(async (data) => {
+    const picture = new Image();
+    picture.src = data;
+    await picture.decode();
+    const context = document.createElement("canvas").getContext("2d");
+    context.drawImage(picture, 0, 0);
+    return [...context.getImageData(0, 0, 1, 1).data].slice(0, 3);
+  }, `data:image/png;base64,${png.toString("base64")}`);
+}
 const far = (a, b) => Math.hypot(...a.map((one, k) => one - b[k]));
 
 const url = await start();
@@ -128,14 +169,73 @@ await test("a fit from them gives a rig that smiles", async () => {
   assert.equal(Object.keys(written.landmarks).length, 20);
   assert.ok(far(written.landmarks.prn.xyz, truth.prn) < 1);
   await shot(page, "newhead-fitted");
-  await page.locator("#newhead-open").click();
+  await page.locator("#newhead-smile").click();
   await until(page, () => /head$|head\.rig/.test(document.title) || document.querySelector("#file-name").textContent.startsWith("new script"));
   await until(page, () => Object.keys(window.studio.script().script.channels ?? {}).length === 0);
-  await page.locator('.row[data-name="AU12"] input[type=number]').fill("1");
-  await page.locator('.row[data-name="AU12"] input[type=number]').press("Enter");
-  await until(page, () => window.studio.state().overrides.AU12 === 1 && document.querySelector("#twin").textContent.includes("zygomaticus"));
-  await page.waitForTimeout(1500);
+  await until(page, () => /Smile test/.test(document.querySelector("#message").textContent));
+  assert.equal((await page.evaluate(() => window.studio.state().overrides.AU12)), 1);
+  const ways = [...(await page.locator("#message").textContent()).matchAll(/(\d+\.\d) mm/g)].map(([, mm]) => Number(mm));
+  assert.equal(ways.length, 2);
+  assert.ok(ways.every((mm) => mm > 6 && mm < 25), `${ways} mm`);
+  assert.match(await page.locator("#twin").textContent(), /zygomaticus/);
   await shot(page, "newhead-smiles");
+});
+
+await test("eyes have the picture of the mesh", async () => {
+  await until(page, () => window.studio.scene().surfaces.some((one) => one.material === "eye" && one.texture >= 0));
+  await page.evaluate(() => window.studio.ask({ type: "release" }));
+  await page.locator("#camera").selectOption({ label: "6  eye" });
+  let colour = [];
+  for (let left = 60; left > 0 && !(colour[1] > 1.5 * colour[0]); left--) {
+    const box = await page.locator("#stage").boundingBox();
+    colour = await colourAt(page, box.x + box.width / 2, box.y + box.height / 2);
+    await page.waitForTimeout(500);
+  }
+  assert.ok(colour[1] > 1.5 * colour[0] && colour[1] > 1.5 * colour[2], `r g b ${colour}`);
+  await page.locator("#camera").selectOption({ label: "1  front" });
+});
+
+await test("a fit that runs shows its progress, and a fit that is cancelled leaves the rig as it was", async () => {
+  const before = readFileSync(join(folder, "anna/head.rig.json"), "utf8");
+  await page.locator("#new-head").click();
+  await page.locator("#newhead-quick").uncheck();
+  await page.locator("#newhead-fit").click();
+  await page.locator("#newhead-running").waitFor({ state: "visible" });
+  assert.ok(await page.locator("#newhead-fit").isDisabled());
+  assert.ok(!(await page.locator("#newhead-open").isVisible()) && !(await page.locator("#newhead-smile").isVisible()));
+  await until(page, () => document.querySelector("#newhead-progress").value > 0);
+  assert.match(await page.locator("#newhead-left").textContent(), /^\d+ % \S/);
+  await shot(page, "newhead-fitting");
+  await page.locator("#newhead-cancel").click();
+  await until(page, () => /Cancelled/.test(document.querySelector("#newhead-told").textContent));
+  assert.equal(await page.locator("#newhead-told").textContent(), "Cancelled. No rig was written.");
+  assert.ok(!(await page.locator("#newhead-running").isVisible()));
+  assert.equal(readFileSync(join(folder, "anna/head.rig.json"), "utf8"), before);
+  await page.locator("#newhead-quick").check();
+  await page.locator("#newhead-close").click();
+});
+
+await test("on a phone and on an upright tablet everything of the page can be reached", async () => {
+  for (const [width, height] of [[390, 780], [768, 1024]]) {
+    await page.setViewportSize({ width, height });
+    await page.locator("#new-head").click();
+    for (const id of ["newhead-accept", "newhead-undo", "newhead-mirror", "newhead-all", "newhead-quick", "newhead-cut-lips", "newhead-find", "newhead-fit", "newhead-close"]) {
+      const seen = await page.evaluate((one) => {
+        const element = document.getElementById(one);
+        const parts = element.closest("details");
+        if (parts) parts.open = true;
+        element.scrollIntoView({ block: "center" });
+        const box = element.getBoundingClientRect();
+        const there = document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2);
+        return there === element || element.contains(there) ? "" : `${there?.tagName} ${there?.id}`;
+      }, id);
+      assert.equal(seen, "", `${id} at ${width} x ${height}`);
+    }
+    assert.ok((await page.evaluate(() => document.querySelector(".newhead-panel").scrollWidth)) <= width);
+    await shot(page, `newhead-${width}`);
+    await page.locator("#newhead-close").click();
+  }
+  await page.setViewportSize({ width: 1100, height: 760 });
 });
 
 await test("a rig that has never spoken gets its mouths while the page goes on", async () => {

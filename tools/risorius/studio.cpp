@@ -133,6 +133,7 @@ void Studio::greet(Page& page) {
     send_sound(page);
     for (const auto& picture : pictures_) page.peer->send_binary(picture);
     if (export_->running()) page.peer->send_text(export_->last());
+    if (head_->fits()) page.peer->send_text(head_->fit_told());
     page.credit = kFirstCredit;
     pose_waits_ = true;
 }
@@ -206,7 +207,7 @@ void Studio::text(serve::Peer& peer, const std::string& message) {
         } else if (is("say")) {
             say(peer, cursor);
         } else if (is("meshes") || is("mesh") || is("save_landmarks") || is("fit") ||
-                   is("find_landmarks")) {
+                   is("cancel_fit") || is("find_landmarks")) {
             new_head(peer, type.get<std::string>(), cursor);
         } else if (is("camera")) {
             camera(cursor);
@@ -260,6 +261,7 @@ void Studio::thumbnail(const JsonCursor& message) {
 
 void Studio::new_head(serve::Peer& peer, const std::string& type, const JsonCursor& message) {
     if (type == "meshes") return peer.send_text(head_->meshes());
+    if (type == "cancel_fit") return head_->cancel_fit();
     if (type == "mesh")
         return peer.send_binary(std::make_shared<const std::string>(head_->mesh(message)));
     const auto tell = [this](const std::string& text) { tell_all(text); };
@@ -275,7 +277,6 @@ void Studio::new_head(serve::Peer& peer, const std::string& type, const JsonCurs
     tell_all(json_text(json_object({{"type", "landmarks_saved"}, {"path", name}})));
     if (type != "fit") return;
     head_->fit(message, file, *server_, tell);
-    tell_all(json_text(json_object({{"type", "fit"}, {"state", "running"}})));
 }
 
 /// The page that steers may have a camera: what it sees moves the face.
@@ -326,7 +327,7 @@ void Studio::make(serve::Peer& peer, const std::string& type, const JsonCursor& 
 }
 
 void Studio::tick() {
-    const bool nobody = pages_.empty() && ever_seen_ && !export_->running();
+    const bool nobody = pages_.empty() && ever_seen_ && !export_->running() && !head_->fits();
     idle_ticks_ = nobody ? idle_ticks_ + 1 : 0;
     if (pages_.empty()) return;
     const auto begin = std::chrono::steady_clock::now();

@@ -31,11 +31,15 @@ const std::set<std::string>& mesh_endings() {
     return endings;
 }
 
-/// A rig or a file of landmarks is not written over without asking.
-void ask_to_replace(const JsonCursor& message, const fs::path& file) {
+/// A rig or a file of landmarks is not written over without asking, once for all files.
+void ask_to_replace(const JsonCursor& message, const std::vector<fs::path>& files) {
     const auto replace = message.find("replace");
-    if (!fs::exists(file) || (replace && replace->boolean())) return;
-    message.fail("consent to replace " + in_quotes(file.filename().string()), "none");
+    if (replace && replace->boolean()) return;
+    std::string names;
+    for (const fs::path& file : files)
+        if (fs::exists(file))
+            names += (names.empty() ? "" : " and ") + in_quotes(file.filename().string());
+    if (!names.empty()) message.fail("consent to replace " + names, "none");
 }
 
 }  // namespace
@@ -113,7 +117,8 @@ fs::path StudioHead::write_landmarks(const JsonCursor& message) const {
                                       {"landmarks", landmarks}});
     const fs::path file =
         open_->file.parent_path() / (open_->file.stem().string() + ".landmarks.json");
-    ask_to_replace(message, file);
+    const bool fits = message.at("type").string() == "fit";
+    ask_to_replace(message, fits ? std::vector{file, rig_file()} : std::vector{file});
     const ReadingFormerOutput may_be_replaced;
     OutputSet outputs(file.parent_path(), OutputSet::Then::kRunGoesOn);
     report::write_text(outputs.file(file), json_text(written, 2) + "\n");
@@ -122,10 +127,9 @@ fs::path StudioHead::write_landmarks(const JsonCursor& message) const {
 }
 
 void StudioHead::fit(const JsonCursor& message, const fs::path& landmarks, serve::WebServer& server,
-                     std::function<void(const std::string&)> done) {
+                     std::function<void(const std::string&)> tell) {
     if (fit_.running()) message.fail("one fit at a time", "another that runs");
     const fs::path rig = rig_file();
-    ask_to_replace(message, rig);
     std::vector<std::string> arguments{"fit", open_->file.string()};
     arguments.insert(arguments.end(), {"--landmarks", landmarks.string(), "--out", rig.string()});
     const std::pair<const char*, const char*> flags[]{
@@ -135,14 +139,28 @@ void StudioHead::fit(const JsonCursor& message, const fs::path& landmarks, serve
     for (const auto& [role, groups] : parts_of(message))
         for (const std::string& group : groups)
             arguments.insert(arguments.end(), {"--part", role + "=" + group});
+    const auto told = [this, rig = name_of(rig), mesh = name_of(open_->file),
+                       tell = std::move(tell)](const char* state, double fraction,
+                                               const std::string& text) {
+        fit_told_ = json_text(json_object({{"type", "fit"},
+                                           {"state", state},
+                                           {"fraction", fraction},
+                                           {"path", mesh},
+                                           {"rig", rig},
+                                           {"text", text}}));
+        tell(fit_told_);
+    };
     fit_.start(arguments, server,
-               {.progress = {},
-                .ended = [rig = name_of(rig), done](int exit_code, bool, const std::string& text) {
-                    done(json_text(json_object({{"type", "fit"},
-                                                {"state", exit_code == 0 ? "done" : "failed"},
-                                                {"rig", rig},
-                                                {"text", text}})));
-                }});
+               {.progress = [told](double fraction,
+                                   const std::string& text) { told("running", fraction, text); },
+                .ended =
+                    [told](int exit_code, bool cancelled, const std::string& text) {
+                        told(exit_code == 0 ? "done"
+                             : cancelled    ? "cancelled"
+                                            : "failed",
+                             exit_code == 0 ? 1 : 0, text);
+                    }});
+    told("running", 0, "");
 }
 
 void StudioHead::find(const JsonCursor& message, serve::WebServer& server,

@@ -32,14 +32,21 @@ class StudioHead {
     std::string mesh(const JsonCursor& message);
 
     /// Writes the landmarks of {"type": "fit" or "save_landmarks", "landmarks": {"n": [x, y, z]}, "replace": true} for the mesh
-    /// that was read last, beside it, as NAME.landmarks.json. Positions are those of the page. Returns the file. Throws Error.
+    /// that was read last, beside it, as NAME.landmarks.json. Positions are those of the page. Returns the file. Throws Error, also
+    /// when a file that would be written exists (for a fit, the rig too) and "replace" is not true.
     std::filesystem::path write_landmarks(const JsonCursor& message) const;
 
     /// Fits a rig in a process of its own; "quick", "cut_lips" and "repair" are true or false, and "parts" is {"skin": ["Mesh_03"]}, the
-    /// groups whose names do not tell their role. `done` gets {"type": "fit", "state": "done" or "failed", "rig": ..., "text": ...} on the
-    /// thread of the server. Throws Error while another fit runs, or when the rig exists and "replace" is not true.
+    /// groups whose names do not tell their role. `tell` gets {"type": "fit", "state": "running", "done", "failed" or "cancelled",
+    /// "fraction": 0..1, "path": of the mesh, "rig": ..., "text": what is done, or the report} on the thread of the server. Throws
+    /// Error while another fit runs.
     void fit(const JsonCursor& message, const std::filesystem::path& landmarks,
-             serve::WebServer& server, std::function<void(const std::string&)> done);
+             serve::WebServer& server, std::function<void(const std::string&)> tell);
+
+    void cancel_fit() { fit_.cancel(); }
+    bool fits() const { return fit_.running(); }
+    /// What was told last of a fit.
+    const std::string& fit_told() const { return fit_told_; }
 
     /// Finds the landmarks of the mesh that was read last, in pictures of it; "parts" as above. `done` gets {"type": "landmarks_found", "state": "done" or
     /// "failed", "path": of the mesh, "landmarks": {"n": {"at": position in the page, "confidence": 0..1}}, "text": what was wrong} on the
@@ -67,6 +74,7 @@ class StudioHead {
     std::filesystem::path folder_;
     std::optional<Opened> open_;
     ChildJob fit_;
+    std::string fit_told_;
     std::unique_ptr<std::jthread> search_;
     bool searching_ = false;
 };

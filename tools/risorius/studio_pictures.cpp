@@ -13,18 +13,38 @@ namespace risorius::cli {
 namespace {
 
 constexpr double kBoneStep_mm = 2.5;  // coarser than in videos: it comes sooner
-constexpr int kSkinPicture_px = 1024, kPartPicture_px = 256;
+constexpr int kSkinPicture_px = 1024, kPartPicture_px = 256, kMeshPicture_px = 2048;
 
-/// The pictures of what a scene has no pictures for.
+/// Half the size: the mean of four pixels each.
+Image halved(const Image& image) {
+    Image out(std::max(1, image.width_px / 2), std::max(1, image.height_px / 2));
+    for (int y = 0; y < out.height_px; ++y)
+        for (int x = 0; x < out.width_px; ++x)
+            for (int c = 0; c < 4; ++c) {
+                int sum = 0;
+                for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}})
+                    sum += image.pixel(std::min(2 * x + dx, image.width_px - 1),
+                                       std::min(2 * y + dy, image.height_px - 1))[c];
+                out.pixel(x, y)[c] = static_cast<std::uint8_t>((sum + 2) / 4);
+            }
+    return out;
+}
+
+/// A picture of the mesh, which may be large, as the page gets it.
+Image for_page(const Image& image) {
+    Image out = image;
+    while (std::max(out.width_px, out.height_px) > kMeshPicture_px) out = halved(out);
+    return out;
+}
+
+/// The pictures of the mesh, and of what has none.
 std::vector<std::shared_ptr<const std::string>> painted(const render::Scene& scene) {
     std::vector<std::shared_ptr<const std::string>> out;
     const auto add = [&](const char* material, const Image& picture) {
         out.push_back(std::make_shared<const std::string>(view::encode_picture(material, picture)));
     };
-    if (!scene.textures.empty()) {
-        for (std::size_t i = 0; i < scene.textures.size(); ++i)
-            add(std::to_string(i).c_str(), scene.textures[i]);
-    }
+    for (std::size_t i = 0; i < scene.textures.size(); ++i)
+        add(std::to_string(i).c_str(), for_page(scene.textures[i]));
     const auto textured = [&](render::Material material) {
         return std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const auto& one) {
             return one.material == material && one.texture < 0 && one.texcoords.rows() > 0;

@@ -29,7 +29,7 @@ DrawnVertices drawn_vertices(const render::Scene& scene);
 /// The scene. `soft`: one flag per vertex of the mesh, whether a hand can pull it.
 std::string encode_scene(const render::Scene& scene, const DrawnVertices& drawn,
                          const std::vector<char>& soft, double unit_m);
-/// The picture of a material, "skin" or "eye", 8 bits a channel.
+/// The picture of a material, "skin" or "eye", or of the mesh by its number, "0"; 8 bits a channel.
 std::string encode_picture(const std::string& material, const Image& picture);
 std::string encode_muscles(const face::MuscleSurfaces& surfaces);
 /// The bones under the skin, at rest: {"cranium": {"vertices", "triangles"}, "mandible": the same}. A pose has the motion of the mandible.
