@@ -278,6 +278,40 @@ TEST(Session, AnEditShowsTheHeldMomentAndThenTheScript) {
     EXPECT_TRUE(session.pose().substr(8) == now.substr(8));
 }
 
+// Whatever was edited and however fast: once it rests, the face is that of the script at the playhead.
+TEST(Session, FastEditsAndSeeksEndInThePoseOfThePlayhead) {
+    std::mt19937 random(5);
+    const auto one_of = [&](int count) {
+        return static_cast<int>(random() % static_cast<unsigned>(count));
+    };
+    Json script = smile();
+    script["duration_s"] = 1.0;
+    Session session(inputs(script));
+    for (int round = 0; round < 6; ++round) {
+        for (int i = 0; i < 12; ++i) {
+            const double t_s = 0.1 * one_of(11);
+            const char* channel = one_of(2) ? "AU12" : "AU2";
+            const Json messages[]{
+                {{"type", "seek"}, {"t_s", t_s}},
+                {{"type", "override"}, {"channel", channel}, {"value", 0.25 * one_of(5)}},
+                {{"type", "key"}, {"channel", channel}},
+                {{"type", "release"}, {"channel", channel}},
+                {{"type", "undo"}},
+                {{"type", "redo"}}};
+            session.receive(message(messages[one_of(6)]));
+            for (int tick = one_of(5); tick > 0; --tick) session.tick();
+        }
+        session.receive(message({{"type", "release"}}));
+        for (int i = 0; i < 600 && !state_of(session)["resting"].get<bool>(); ++i) session.tick();
+        ASSERT_TRUE(state_of(session)["resting"].get<bool>()) << session.state();
+        Session fresh(inputs(Json::parse(session.document())["script"]));
+        fresh.receive(message({{"type", "seek"}, {"t_s", state_of(session)["t_s"]}}));
+        for (int i = 0; i < 200 && !state_of(fresh)["resting"].get<bool>(); ++i) fresh.tick();
+        EXPECT_TRUE(session.pose().substr(8) == fresh.pose().substr(8))
+            << "round " << round << " " << session.document();
+    }
+}
+
 TEST(Session, SaysWhatIsWrongAndGoesOn) {
     Session session(inputs(smile()));
     const auto error = [&](const Json& json) {
