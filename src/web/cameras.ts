@@ -2,7 +2,7 @@
 /// \file
 /// The named cameras of `risorius render`, framed by the landmarks of the head in the same way (render/detail/camera.cpp).
 
-import { Vector3 } from "three";
+import { Box3, Vector3 } from "three";
 
 import type { Vec } from "./protocol.js";
 
@@ -37,6 +37,14 @@ export interface View {
   height_m: number; ///< of the frame at the target
 }
 
+/// A whole object, with half of its size to all sides: it may be pulled.
+export function frameAll(camera: NamedCamera, positions: Float32Array, aspect: number): View {
+  const box = new Box3().setFromArray(positions);
+  const size = box.getSize(new Vector3());
+  const height_m = (2 * Math.max(size.x, size.y, size.z)) / Math.min(aspect, 1);
+  return { target: box.getCenter(new Vector3()), direction: directionOf(camera), height_m };
+}
+
 export function frame(camera: NamedCamera, landmarks: Record<string, Vec>, aspect: number): View {
   const of = (id: string) => new Vector3(...(landmarks[id] ?? [0, 0, 0]));
   const crown = of("v");
@@ -45,7 +53,6 @@ export function frame(camera: NamedCamera, landmarks: Record<string, Vec>, aspec
   const bottom = chin.y - marginBelow * height;
   const top = crown.y + marginAbove * height;
   const azimuth = (camera.azimuth_deg * Math.PI) / 180;
-  const elevation = ((camera.elevation_deg ?? 0) * Math.PI) / 180;
   const half = { x: 0.4 * height, z: 0.46 * height };
   let target = new Vector3((crown.x + chin.x) / 2, (bottom + top) / 2, of("prn").z - half.z);
   const halfWidth = Math.abs(Math.cos(azimuth)) * half.x + Math.abs(Math.sin(azimuth)) * half.z;
@@ -54,10 +61,11 @@ export function frame(camera: NamedCamera, landmarks: Record<string, Vec>, aspec
     target = of(camera.middle[0]).add(of(camera.middle[1])).multiplyScalar(0.5);
     height_m = ((camera.height_mm / headHeight_mm) * height) / Math.min(aspect, 1);
   }
-  const direction = new Vector3(
-    Math.sin(azimuth) * Math.cos(elevation),
-    Math.sin(elevation),
-    Math.cos(azimuth) * Math.cos(elevation),
-  );
-  return { target, direction, height_m };
+  return { target, direction: directionOf(camera), height_m };
+}
+
+function directionOf(camera: NamedCamera): Vector3 {
+  const azimuth = (camera.azimuth_deg * Math.PI) / 180;
+  const elevation = ((camera.elevation_deg ?? 0) * Math.PI) / 180;
+  return new Vector3(Math.sin(azimuth) * Math.cos(elevation), Math.sin(elevation), Math.cos(azimuth) * Math.cos(elevation));
 }

@@ -119,13 +119,14 @@ export class Head {
 
   private materials(): Record<string, THREE.Material> {
     const s = this.scene;
+    const hasFace = s.landmarks.v !== undefined; // else a soft body, which may be a sheet
     const colour = (rgb: [number, number, number]) => new THREE.Color().setRGB(...rgb, THREE.SRGBColorSpace);
     const lit = (c: THREE.Color | number, roughness: number) =>
       new THREE.MeshStandardMaterial({ color: c, roughness, metalness: 0 });
     // The light that comes through the lips is the colour of its vertices.
     const behindLips = (c: number, roughness: number) => new THREE.MeshStandardMaterial({ color: c, roughness, vertexColors: true });
     return {
-      skin: lit(colour(s.skin_tone), 0.55),
+      skin: new THREE.MeshStandardMaterial({ color: colour(s.skin_tone), roughness: 0.55, side: hasFace ? THREE.FrontSide : THREE.DoubleSide }),
       eye: lit(0xe9e6e1, 0.18),
       cornea: new THREE.MeshPhongMaterial({
         color: 0x000000,

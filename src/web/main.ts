@@ -10,6 +10,7 @@ import { byId, h, shown } from "./dom.js";
 import { makeEngine } from "./engine_choice.js";
 import { Export } from "./export.js";
 import type { Job } from "./export.js";
+import { useDrop } from "./drop.js";
 import { download, Files } from "./files.js";
 import type { Sight } from "./head.js";
 import "./hosted.js";
@@ -150,8 +151,9 @@ function undo(): void {
 
 function takeWelcome(message: Welcome): void {
   welcome = message;
+  document.body.dataset.kind = message.kind ?? "face";
   keeper.useWelcome(message);
-  byId("file-name").textContent = message.file ?? `new script for ${message.rig}`;
+  byId("file-name").textContent = message.kind === "body" ? message.rig : (message.file ?? `new script for ${message.rig}`);
   byId("folder").textContent = message.folder;
   document.title = `${message.file ?? message.rig} – Risorius studio`;
   channels.use(message);
@@ -160,7 +162,10 @@ function takeWelcome(message: Welcome): void {
   const add = byId<HTMLSelectElement>("add");
   add.replaceChildren(h("option", { value: "" }, "event…"), h("option", { value: "blink" }, "blink"), h("option", { value: "say" }, "say a text…"));
   for (const { name } of message.expressions) add.append(h("option", { value: `expression ${name}` }, name.replaceAll("_", " ")));
+  if (!message.start) byId<HTMLDialogElement>("open-dialog").close();
   if (!message.steers) say("Another page steers; this one looks.");
+  else if (message.mesh) newHead.show(message.folder, message.mesh);
+  else if (message.start) engine.send({ type: "files" });
 }
 
 /// Documents may come faster than pictures: the last one is shown.
@@ -295,6 +300,11 @@ function takeOther(message: Record<string, any>): void {
     if (message.state === "running") say(`The mouths of this rig are simulated first, once, for some minutes: ${Math.round(100 * Number(message.fraction))} %. You can go on working.`, true);
     else if (message.state === "failed") say(String(message.text));
   }
+  if (message.type === "dropped" && message.mesh) {
+    byId<HTMLDialogElement>("open-dialog").close();
+    newHead.show(welcome?.folder ?? "", message.path);
+  }
+  if (message.type === "dropped" && !message.mesh) say(`${message.path} is in the folder now.`, true);
   if (message.type === "meshes") newHead.useMeshes(message.files);
   if (message.type === "landmarks_saved") newHead.useSaved(message.path);
   if (message.type === "landmarks_found") newHead.useFound(message);
@@ -486,6 +496,12 @@ useKeyboard({
     cameraSelect.value = String(index);
     stage.look(index);
   },
+});
+useDrop({
+  ask: (message) => engine.ask(message),
+  send: (message) => engine.send(message),
+  bytes: (piece) => engine.sendBytes(piece),
+  tell: (text) => say(text),
 });
 useClipboard({ copy: () => timeline.copy(), remove: () => timeline.remove(), paste: (text, mirrored) => timeline.paste(text, mirrored) });
 

@@ -36,6 +36,7 @@ export class NewHead {
   private mesh: MeshFrame | null = null;
   private chosen = required[0];
   private folder = "";
+  private asked = ""; ///< mesh that is opened when the list is there
   private rig = ""; ///< that the last fit has made
   private readonly meshes = byId<HTMLSelectElement>("newhead-mesh");
   private readonly list = byId("newhead-list");
@@ -62,9 +63,10 @@ export class NewHead {
     this.dialog.addEventListener("keydown", (event) => this.shortcut(event));
   }
 
-  /// Shows the page; the meshes of the folder come as an answer.
-  show(folder: string): void {
+  /// Shows the page; the meshes of the folder come as an answer. `mesh`: the one that is opened.
+  show(folder: string, mesh = ""): void {
     this.folder = folder;
+    this.asked = mesh;
     if (!this.dialog.open) this.dialog.showModal();
     void this.actions.ask({ type: "meshes" });
     this.write();
@@ -76,9 +78,12 @@ export class NewHead {
   }
 
   useMeshes(files: string[]): void {
-    const now = this.meshes.value;
+    const asked = this.asked;
+    this.asked = "";
+    const now = asked || this.meshes.value;
     this.meshes.replaceChildren(h("option", { value: "" }, files.length > 0 ? "choose a mesh…" : "no mesh in this folder"), ...files.map((file) => h("option", { value: file }, file)));
     this.meshes.value = now;
+    if (asked && this.meshes.value === asked) void this.load(asked);
   }
 
   private async load(path: string): Promise<void> {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What the engine and the page say to one another, and how binary messages are read (view/detail/pose_frame.h, view/scene_frame.h).
+/// What the engine and the page say to one another, and how binary messages are read (view/pose_frame.h, view/scene_frame.h).
 
 export interface Channel {
   name: string;
@@ -21,6 +21,9 @@ export interface Expression {
 
 export interface Welcome {
   type: "welcome";
+  kind?: "body"; ///< a soft body without channels and script; else a face
+  start?: boolean; ///< nothing was named: the list of scripts is shown
+  mesh?: string; ///< of which a rig is to be made first
   rig: string;
   file: string | null;
   folder: string;

@@ -5,7 +5,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
-import { cameras, frame } from "./cameras.js";
+import { cameras, frame, frameAll } from "./cameras.js";
 import { byId, h } from "./dom.js";
 import { Head } from "./head.js";
 import { softwareGl } from "./lean.js";
@@ -217,7 +217,8 @@ export class Stage {
     Object.assign(view, { named: index, turned: false });
     if (!this.head) return;
     const { camera, controls } = view;
-    const framed = frame(cameras[index], this.head.scene.landmarks, camera.aspect);
+    const { landmarks, rest } = this.head.scene;
+    const framed = landmarks.v ? frame(cameras[index], landmarks, camera.aspect) : frameAll(cameras[index], rest, camera.aspect);
     const distance = framed.height_m / 2 / Math.tan((viewAngle_deg * Math.PI) / 360);
     controls.target.copy(framed.target);
     camera.position.copy(framed.target).addScaledVector(framed.direction, distance);

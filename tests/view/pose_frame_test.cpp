@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the page gets: positions within a hundredth of a millimetre, and nothing that is cut.
-#include "risorius/view/detail/pose_frame.h"
+#include "risorius/view/pose_frame.h"
 
 #include <gtest/gtest.h>
 

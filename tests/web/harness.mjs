@@ -9,7 +9,7 @@ import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 
-export const [program, packages, source, shots] = process.argv.slice(2);
+export const [program, packages, source, shots] = process.argv.slice(2).map((path) => resolve(path));
 const { chromium } = await import(join(resolve(packages), "playwright-core/index.mjs"));
 export const folder = mkdtempSync(join(tmpdir(), "risorius studio "));
 export const script = {
@@ -25,7 +25,11 @@ if (shots) mkdirSync(shots, { recursive: true });
 
 let server = null;
 export function start(port = 0, ...options) {
-  server = spawn(program, ["view", join(folder, "script.json"), "--no-browser", "--port", String(port), ...options], { stdio: ["ignore", "pipe", "inherit"] });
+  return startWith([join(folder, "script.json"), "--port", String(port), ...options]);
+}
+/// Starts `risorius view` with these arguments, in the folder.
+export function startWith(args) {
+  server = spawn(program, ["view", "--no-browser", ...args], { stdio: ["ignore", "pipe", "inherit"], cwd: folder });
   return new Promise((resolve, reject) => {
     let text = "";
     server.stdout.on("data", (data) => {

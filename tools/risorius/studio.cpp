@@ -12,6 +12,7 @@
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
 #include "risorius/core/output_set.h"
+#include "risorius/io/read_mesh.h"
 #include "risorius/report/atomic_file.h"
 #include "risorius/talk/say_event.h"
 #include "risorius/view/document.h"
@@ -42,11 +43,19 @@ std::string error_text(const Json& id, const std::string& text) {
 
 }  // namespace
 
-Studio::Studio(const fs::path& file, const std::string& quality) : quality_(quality) {
-    const fs::path given = file.empty() ? data_folder() / "rigs" / "adult" / "rig.json" : file;
+Studio::Studio(const fs::path& file, const std::string& quality)
+    : quality_(quality), start_(file.empty()) {
+    const bool is_mesh = is_mesh_file(file);
+    const fs::path given =
+        file.empty() || is_mesh ? data_folder() / "rigs" / "adult" / "rig.json" : file;
     const fs::path place = file.empty() ? fs::current_path() : fs::absolute(file).parent_path();
     folder_ = fs::weakly_canonical(place);
+    if (is_mesh) {
+        (void)io::read_mesh(file);  // what is wrong with it is said before a page is opened
+        mesh_ = file.filename().string();
+    }
     head_ = std::make_unique<StudioHead>(folder_);
+    drop_ = std::make_unique<StudioDrop>(folder_);
     export_ = std::make_unique<StudioExport>(folder_);
     open(given);
 }
@@ -97,8 +106,7 @@ void Studio::run(serve::WebServer& server, const std::function<bool()>& stopped)
     const serve::Handler handler{
         .opened = [this](serve::Peer& peer) { opened(peer); },
         .text = [this](serve::Peer& peer, const std::string& message) { text(peer, message); },
-        .binary = [this](serve::Peer& peer,
-                         const std::string& bytes) { camera_picture(peer, bytes); },
+        .binary = [this](serve::Peer& peer, const std::string& bytes) { binary(peer, bytes); },
         .closed = [this](serve::Peer& peer) { closed(peer); },
         .tick = [this] { tick(); }};
     make_pictures(server);
@@ -127,6 +135,8 @@ void Studio::greet(Page& page) {
     welcome["folder"] = folder_.string();
     welcome["file"] =
         script_.file.empty() ? Json() : Json(script_.file.lexically_proximate(folder_).string());
+    if (!mesh_.empty()) welcome["mesh"] = mesh_;
+    if (start_) welcome["start"] = true;
     page.peer->send_text(json_text(welcome));
     page.peer->send_binary(scene_);
     page.peer->send_text(script_.session->document());
@@ -216,11 +226,9 @@ void Studio::text(serve::Peer& peer, const std::string& message) {
         } else if (is("render") || is("shapes") || is("cancel") || is("result")) {
             make(peer, type.get<std::string>(), cursor);
         } else if (is("open")) {
-            const fs::path file = listed_script(cursor);
-            if (script_.session->dirty()) write_recovery();
-            open(file);
-            for (Page& one : pages_) greet(one);
-            make_pictures(*server_);
+            open_for_all(listed_script(cursor));
+        } else if (is("drop")) {
+            drop_->begin(cursor);
         } else {
             if (is("sights")) page->wants_muscles = field("muscles") == Json(true);
             if (is("sights") && field("skull") == Json(true)) {
@@ -279,6 +287,25 @@ void Studio::new_head(serve::Peer& peer, const std::string& type, const JsonCurs
     head_->fit(message, file, *server_, tell);
 }
 
+/// A script or a rig is opened; the page is told of anything else.
+void Studio::dropped(const fs::path& file) {
+    const std::string name = file.filename().string();
+    if (file.extension() == ".json" &&
+        format_of(JsonCursor::read_file(file).json()) != "risorius-landmarks")
+        return open_for_all(file);
+    tell_all(json_text(
+        json_object({{"type", "dropped"}, {"path", name}, {"mesh", is_mesh_file(file)}})));
+}
+
+void Studio::open_for_all(const fs::path& file) {
+    if (script_.session->dirty()) write_recovery();
+    open(file);
+    start_ = false;
+    mesh_.clear();
+    for (Page& one : pages_) greet(one);
+    make_pictures(*server_);
+}
+
 /// The page that steers may have a camera: what it sees moves the face.
 void Studio::camera(const JsonCursor& message) {
     perform_.receive(message, script_.rig_files, *server_,
@@ -293,10 +320,14 @@ void Studio::camera(const JsonCursor& message) {
                           }});
 }
 
-void Studio::camera_picture(serve::Peer& peer, const std::string& bytes) {
+/// A picture of the camera, or a piece of a file that was dropped.
+void Studio::binary(serve::Peer& peer, const std::string& bytes) {
     if (pages_.empty() || &peer != pages_.front().peer) return;
     try {
-        perform_.picture(bytes);
+        if (!StudioDrop::is_piece(bytes))
+            perform_.picture(bytes);
+        else if (const auto file = drop_->add(bytes))
+            dropped(*file);
     } catch (const Error& error) {
         peer.send_text(error_text(nullptr, error.what()));
     }

@@ -14,6 +14,7 @@
 #include "risorius/serve/web_server.h"
 #include "risorius/view/session.h"
 #include "tools/risorius/child_job.h"
+#include "tools/risorius/studio_drop.h"
 #include "tools/risorius/studio_export.h"
 #include "tools/risorius/studio_head.h"
 #include "tools/risorius/studio_perform.h"
@@ -34,8 +35,8 @@ struct OpenScript {
 /// Connects the pages with the session. All members run on the thread of the server.
 class Studio {
   public:
-    /// `file`: a script, a rig, or nothing for the adult. Files are read and written below the folder of the file, or the current
-    /// one. Throws Error.
+    /// `file`: a script, a rig, a mesh that is to become one, or nothing for the adult. Files are read and written below the folder of
+    /// the file, or the current one. Throws Error.
     Studio(const std::filesystem::path& file, const std::string& quality);
     ~Studio();
 
@@ -55,7 +56,9 @@ class Studio {
     void open(const std::filesystem::path& file);
     void opened(serve::Peer& peer);
     void text(serve::Peer& peer, const std::string& message);
-    void camera_picture(serve::Peer& peer, const std::string& bytes);
+    void binary(serve::Peer& peer, const std::string& bytes);
+    void dropped(const std::filesystem::path& file);
+    void open_for_all(const std::filesystem::path& file);
     void camera(const JsonCursor& message);
     void closed(serve::Peer& peer);
     void tick();
@@ -80,9 +83,12 @@ class Studio {
     void thumbnail(const JsonCursor& message);
 
     std::string quality_;
+    bool start_;                    ///< nothing was named: pages begin with the list of scripts
+    std::string mesh_;              ///< of which a rig is to be made first, below the folder, or ""
     std::filesystem::path folder_;  ///< the project: canonical
     animate::RenderInputs inputs_;
     std::unique_ptr<StudioHead> head_;
+    std::unique_ptr<StudioDrop> drop_;
     std::unique_ptr<StudioExport> export_;
     StudioPerform perform_;
     StudioThumbnails thumbnails_;

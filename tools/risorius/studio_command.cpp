@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// risorius view [SCRIPT | RIG]
+// risorius view [SCRIPT | RIG | MESH | EXPERIMENT]
 #include <fcntl.h>
 #include <spawn.h>
 #include <unistd.h>
@@ -13,8 +13,11 @@
 #include "risorius/face/quality.h"
 #include "risorius/serve/request_checks.h"
 #include "tools/risorius/commands.h"
+#include "tools/risorius/project_files.h"
 #include "tools/risorius/stop_signals.h"
 #include "tools/risorius/studio.h"
+#include "tools/risorius/studio_body.h"
+#include "tools/risorius/studio_head.h"
 
 namespace risorius::cli {
 
@@ -40,11 +43,27 @@ fs::path page_folder() {
                 "none");
 }
 
+constexpr const char* kKinds =
+    "a script, a rig or an experiment with a soft body, .json, a mesh, or a folder with one of "
+    "them";
+
+/// The file that is meant: itself, or what a folder holds.
+fs::path file_meant(const fs::path& given) {
+    if (!fs::is_directory(given)) return given;
+    for (const char* name : {"script.json", "rig.json", "experiment.json"})
+        if (fs::exists(given / name)) return given / name;
+    throw Error(given.string(), kKinds, "a folder without script.json, rig.json, experiment.json");
+}
+
 void check_kind(const fs::path& file) {
-    if (file.empty() || file.extension() == ".json") return;
-    throw Error(file.string(),
-                "a script or a rig, .json; `risorius fit` makes a rig of a mesh with landmarks",
+    if (file.empty() || file.extension() == ".json" || is_mesh_file(file)) return;
+    throw Error(file.string(), kKinds,
                 file.extension().empty() ? "no ending" : in_quotes(file.extension().string()));
+}
+
+bool is_experiment(const fs::path& file) {
+    return file.extension() == ".json" &&
+           format_of(JsonCursor::read_file(file).json()) == "risorius-experiment";
 }
 
 /// Asks the desktop for a browser. Without one, the address is there to be opened by hand.
@@ -73,12 +92,9 @@ std::unique_ptr<serve::WebServer> listen_at(int port) {
     return std::make_unique<serve::WebServer>(page, port);
 }
 
-void run_studio(const StudioArguments& arguments) {
-    check_kind(arguments.file);
-    (void)face::quality_named(arguments.quality);
-    const std::unique_ptr<serve::WebServer> listening = listen_at(arguments.port);
-    serve::WebServer& server = *listening;
-    Studio studio(arguments.file, arguments.quality);
+/// Says where the page is, and runs it.
+template <typename AnyStudio>
+void serve_page(const StudioArguments& arguments, serve::WebServer& server, AnyStudio& studio) {
     if (arguments.common.json)
         std::printf("{\"url\": \"%s\"}\n", server.url().c_str());
     else
@@ -88,13 +104,28 @@ void run_studio(const StudioArguments& arguments) {
     studio.run(server, stop_is_asked);
 }
 
+void run_studio(const StudioArguments& arguments) {
+    const fs::path file = file_meant(arguments.file);
+    check_kind(file);
+    (void)face::quality_named(arguments.quality);
+    if (is_experiment(file)) {
+        StudioBody body(file);
+        return serve_page(arguments, *listen_at(arguments.port), body);
+    }
+    const std::unique_ptr<serve::WebServer> listening = listen_at(arguments.port);
+    Studio studio(file, arguments.quality);
+    serve_page(arguments, *listening, studio);
+}
+
 }  // namespace
 
 void add_studio(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "view", "Open a script in a browser: pull the face, move its muscles, edit keys");
     auto arguments = std::make_shared<StudioArguments>();
-    command->add_option("FILE", arguments->file, "A script or a rig; without it, the adult");
+    command->add_option("FILE", arguments->file,
+                        "A script, a rig, a mesh that is to become one, or a soft body of "
+                        "samples/figures; without it, the adult");
     command
         ->add_option("--port", arguments->port,
                      "The port to listen at. 0: 8417, or a free port if 8417 is in use")
@@ -110,7 +141,9 @@ void add_studio(CLI::App& app) {
     command->footer(
         "Only this computer can reach the page, and only with the address that is printed. "
         "tools/studio.sh builds the page.\n\n"
-        "Example:\n  risorius view samples/hello/script.json --no-browser");
+        "Examples:\n  risorius view samples/hello/script.json --no-browser\n"
+        "  risorius view head.obj\n"
+        "  risorius view samples/figures/8e");
     command->callback([arguments] { run_studio(*arguments); });
 }
 

@@ -44,6 +44,10 @@ void ask_to_replace(const JsonCursor& message, const std::vector<fs::path>& file
 
 }  // namespace
 
+bool is_mesh_file(const fs::path& file) {
+    return mesh_endings().contains(file.extension().string());
+}
+
 std::string StudioHead::name_of(const fs::path& file) const {
     return file.lexically_proximate(folder_).generic_string();
 }

@@ -20,6 +20,9 @@
 
 namespace risorius::cli {
 
+/// Whether a file has the ending of a mesh that can be read.
+bool is_mesh_file(const std::filesystem::path& file);
+
 class StudioHead {
   public:
     /// `folder`: the project, canonical. Files are read and written below it alone.

@@ -150,8 +150,13 @@ InteractiveSpring::InteractiveSpring(double stiffness_n_per_m, double damping_ns
 }
 
 void InteractiveSpring::attach(const solve::NodeBlend& at, const Vec3& free_end) {
+    attach(at, free_end, stiffness_n_per_m_, damping_ns_per_m_);
+}
+
+void InteractiveSpring::attach(const solve::NodeBlend& at, const Vec3& free_end,
+                               double stiffness_n_per_m, double damping_ns_per_m) {
     const std::lock_guard lock(mutex_);
-    wanted_ = {{at, free_end, stiffness_n_per_m_, 0.0, damping_ns_per_m_}};
+    wanted_ = {{at, free_end, stiffness_n_per_m, 0.0, damping_ns_per_m}};
 }
 
 void InteractiveSpring::move(const Vec3& free_end) {

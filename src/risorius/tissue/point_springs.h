@@ -66,6 +66,9 @@ class InteractiveSpring : public solve::EnergyTerm {
     explicit InteractiveSpring(double stiffness_n_per_m, double damping_ns_per_m = 0);
 
     void attach(const solve::NodeBlend& at, const Vec3& free_end);
+    /// With a stiffness and a damping of its own, until it is released.
+    void attach(const solve::NodeBlend& at, const Vec3& free_end, double stiffness_n_per_m,
+                double damping_ns_per_m);
     void move(const Vec3& free_end);  ///< without effect while released
     void release();
 

@@ -27,7 +27,7 @@
 #include "risorius/track/timeline.h"
 #include "risorius/view/detail/channel_recorder.h"
 #include "risorius/view/detail/moments.h"
-#include "risorius/view/detail/pose_frame.h"
+#include "risorius/view/pose_frame.h"
 #include "risorius/view/detail/take.h"
 #include "risorius/view/document.h"
 #include "risorius/view/scene_frame.h"
@@ -70,7 +70,7 @@ class Session {
     bool tick();
     /// Messages that steps have caused, such as the end of the script.
     std::vector<std::string> events() { return std::exchange(events_, {}); }
-    /// The last pose (detail/pose_frame.h), and what a person may want to know about it as JSON. What nobody sees is not computed.
+    /// The last pose (pose_frame.h), and what a person may want to know about it as JSON. What nobody sees is not computed.
     std::string pose();
     std::string state() const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "risorius/view/detail/pose_frame.h"
+#include "risorius/view/pose_frame.h"
 
 #include <algorithm>
 #include <bit>
