@@ -260,6 +260,22 @@ TEST(OutputSet, RefusesAnOutputThatIsAnInput) {
     EXPECT_EQ(bytes_of(folder / "a"), "mine");
 }
 
+TEST(OutputSet, ReplacesAnInputWhenAPersonLetsIt) {
+    const TemporaryFolder folder;
+    write_file(folder / "a", "mine");
+    const InputLog log;
+    read_file(folder / "a", kText);
+    {
+        OutputSet given_up(folder.path());
+        write_file(given_up.replacement(folder / "a"), "lost");
+    }
+    EXPECT_EQ(bytes_of(folder / "a"), "mine");
+    OutputSet set(folder.path());
+    write_file(set.replacement(folder / "a"), "new");
+    set.commit();
+    EXPECT_EQ(bytes_of(folder / "a"), "new");
+}
+
 TEST(OutputSet, IsGoneWhenItIsAbandonedAndNoLongerCommits) {
     const TemporaryFolder folder;
     const pid_t child = ::fork();

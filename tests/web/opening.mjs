@@ -4,7 +4,7 @@
 //   node opening.mjs RISORIUS PLAYWRIGHT_FOLDER SOURCE_FOLDER [SCREENSHOT_FOLDER]
 
 import assert from "node:assert/strict";
-import { copyFileSync, existsSync, readFileSync } from "node:fs";
+import { copyFileSync, existsSync, readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 
 import { end, folder, open, packages, scriptOf, shot, source, startWith, stop, test, until } from "./harness.mjs";
@@ -122,6 +122,12 @@ await test("a mesh that is dropped becomes a new head", async () => {
   await until(page, () => window.studio.newHead().vertices?.length > 1000);
   assert.equal(await page.locator("#newhead-mesh").inputValue(), "bella.obj");
   assert.equal(readFileSync(join(folder, "bella.obj"), "utf8"), readFileSync(mesh, "utf8"));
+  // It has been read; the person may still replace it.
+  const smaller = "# smaller\n" + readFileSync(mesh, "utf8");
+  await drop([{ name: "bella.obj", text: smaller }]);
+  for (let left = 40; left > 0 && readFileSync(join(folder, "bella.obj"), "utf8") !== smaller; left--) await page.waitForTimeout(200);
+  assert.equal(readFileSync(join(folder, "bella.obj"), "utf8"), smaller);
+  assert.deepEqual(readdirSync(folder).filter((name) => name.startsWith(".")), []);
 });
 
 await end();

@@ -289,6 +289,7 @@ void Studio::new_head(serve::Peer& peer, const std::string& type, const JsonCurs
 
 /// A script or a rig is opened; the page is told of anything else.
 void Studio::dropped(const fs::path& file) {
+    const ReadingFormerOutput script_may_be_replaced;
     const std::string name = file.filename().string();
     if (file.extension() == ".json" &&
         format_of(JsonCursor::read_file(file).json()) != "risorius-landmarks")

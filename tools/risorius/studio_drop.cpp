@@ -6,7 +6,6 @@
 #include <set>
 
 #include "risorius/core/error.h"
-#include "risorius/core/input_log.h"
 #include "risorius/core/output_set.h"
 #include "risorius/report/atomic_file.h"
 #include "tools/risorius/studio_head.h"
@@ -60,9 +59,8 @@ std::optional<fs::path> StudioDrop::add(const std::string& bytes) {
     }
     if (content_.size() < bytes_) return std::nullopt;
     bytes_ = 0;
-    const ReadingFormerOutput may_be_replaced;
     OutputSet outputs(file_.parent_path(), OutputSet::Then::kRunGoesOn);
-    report::write_text(outputs.file(file_), content_);
+    report::write_text(outputs.replacement(file_), content_);
     outputs.commit();
     content_.clear();
     content_.shrink_to_fit();

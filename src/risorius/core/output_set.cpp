@@ -35,7 +35,7 @@ const char* kind_of(mode_t mode) {
 struct Target {
     fs::path shown, place;
     std::string relative;
-    enum class Kind { kFile, kFolder, kRemoval } kind = Kind::kFile;
+    enum class Kind { kFile, kReplacement, kFolder, kRemoval } kind = Kind::kFile;
 };
 using Kind = Target::Kind;
 
@@ -51,7 +51,7 @@ void check_place(const Target& target) {
     if (folder ? !S_ISDIR(status.st_mode) : !S_ISREG(status.st_mode))
         throw Error(shown.string(), folder ? kFolderExpected : kFileExpected,
                     kind_of(status.st_mode));
-    if (kind == Kind::kRemoval) return;
+    if (kind == Kind::kRemoval || kind == Kind::kReplacement) return;
     if (is_input(status.st_dev, status.st_ino))
         throw Error(shown.string(), kNoInput, "one that was read");
     if (!folder) return;
@@ -191,7 +191,8 @@ void OutputSet::Impl::move_all(const std::vector<detail::Move>& moves) {
 
 void OutputSet::Impl::commit() {
     const std::vector<detail::Move> moves = checked_moves();
-    const bool one_rename = targets.size() == 1 && targets.front().kind == Kind::kFile;
+    const bool one_rename = targets.size() == 1 && (targets.front().kind == Kind::kFile ||
+                                                    targets.front().kind == Kind::kReplacement);
     const fs::path folder = own.places().private_folder, journal = folder / detail::kJournal,
                    part = folder / "journal.part";
     if (!one_rename) detail::write_new_file(part, detail::journal_text(moves), true, root);
@@ -220,6 +221,9 @@ OutputSet::~OutputSet() {
 }
 
 fs::path OutputSet::file(const fs::path& target) { return impl_->add(target, Kind::kFile); }
+fs::path OutputSet::replacement(const fs::path& target) {
+    return impl_->add(target, Kind::kReplacement);
+}
 fs::path OutputSet::folder(const fs::path& target) { return impl_->add(target, Kind::kFolder); }
 
 fs::path OutputSet::scratch_file(const std::string& name) {

@@ -45,6 +45,8 @@ class OutputSet {
     /// - OutputInUse when another set has it,
     /// - RunError when the private folder cannot be written.
     std::filesystem::path file(const std::filesystem::path& target);
+    /// As file(), of a file that may be an input: a person who was asked lets it be replaced.
+    std::filesystem::path replacement(const std::filesystem::path& target);
     /// Adds a folder, makes it, and returns the path to fill. At commit it takes the place of a folder of that name.
     std::filesystem::path folder(const std::filesystem::path& target);
     /// Adds a file that is to be gone after commit(). Throws as file() does, except that an input may be removed.

@@ -27,9 +27,9 @@
 #include "risorius/track/timeline.h"
 #include "risorius/view/detail/channel_recorder.h"
 #include "risorius/view/detail/moments.h"
-#include "risorius/view/pose_frame.h"
 #include "risorius/view/detail/take.h"
 #include "risorius/view/document.h"
+#include "risorius/view/pose_frame.h"
 #include "risorius/view/scene_frame.h"
 
 namespace risorius::view {
