@@ -10,6 +10,7 @@
 
 #include "risorius/core/data_folder.h"
 #include "risorius/core/error.h"
+#include "risorius/core/input_log.h"
 #include "risorius/face/quality.h"
 #include "risorius/serve/request_checks.h"
 #include "tools/risorius/commands.h"
@@ -62,6 +63,7 @@ void check_kind(const fs::path& file) {
 }
 
 bool is_experiment(const fs::path& file) {
+    const ReadingFormerOutput script_may_be_replaced;
     return file.extension() == ".json" &&
            format_of(JsonCursor::read_file(file).json()) == "risorius-experiment";
 }
