@@ -21,7 +21,7 @@ struct SpeakArguments {
     std::filesystem::path script;
     speech::SpeechStyle style;
     double gestures = 0.6, blinks = 1;
-    int passes = 4;
+    int passes = 6;
 };
 
 /// Standard output and input as names of files.

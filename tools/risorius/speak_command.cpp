@@ -117,7 +117,7 @@ talk::CheckedSpeech render_speech(SpeakArguments& arguments, talk::SpokenResult&
             save();
         }
         tried.add(closures, options.adjust);
-        std::vector<speech::ClosureChange> changes = talk::changes_for(closures, options.adjust);
+        std::vector<speech::ClosureChange> changes = tried.next(closures, options.adjust);
         if (pass >= arguments.passes) {
             // The best of each closure need not be good together.
             if (arguments.passes == 0 || alone || same(best_adjust, options.adjust)) break;

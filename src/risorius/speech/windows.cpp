@@ -47,7 +47,9 @@ constexpr double kStressJaw = 1.15, kStressTau = 0.85;
 constexpr double kVowelFrom = 0.25, kVowelTo = 0.75, kOtherFrom = 0.3, kOtherTo = 0.7;
 constexpr double kOpenFrom = 0.30, kOpenTo = 0.75;  // in which a vowel must be open
 constexpr double kOpenGap_mm = 1.5, kOpenFraction = 0.3, kAfterLabial_s = 0.040;
+// Lips that open late: apart by this from here on; more of it and earlier by these for each second by which the closure is shorter
 constexpr double kPartsFrom_s = 0.012, kPartsTo_s = 0.030, kParts_mm = 1;
+constexpr double kPartsEarlier = 0.4, kPartsMore_mm_s = 60;
 constexpr double kContactLead_s = 0.015;  // labiodentals: the sound begins when the lip is there
 constexpr double kContactTo = 0.85;
 constexpr double kRelaxingPause_s = 0.15, kRelaxFrom = 0.35, kRelaxTo = 0.65;
@@ -349,8 +351,11 @@ void change_closures(const std::vector<ClosureChange>& changes, ArticulationTarg
         if (closure == targets.closures.end()) continue;
         // Lips that open late are apart soon after the release, whatever the next sound asks for.
         if (change.shorter_s > 0)
-            targets.bounds.push_back({Parameter::kGap, closure->release_s + kPartsFrom_s,
-                                      closure->release_s + kPartsTo_s, kParts_mm, kInfinite, -1});
+            targets.bounds.push_back(
+                {Parameter::kGap,
+                 closure->release_s + kPartsFrom_s - kPartsEarlier * change.shorter_s,
+                 closure->release_s + kPartsTo_s, kParts_mm + kPartsMore_mm_s * change.shorter_s,
+                 kInfinite, -1});
         const auto move = [&](double& from_s, double& to_s) {
             from_s -= change.earlier_s;
             to_s = std::max(from_s + 0.005, to_s - change.shorter_s);
