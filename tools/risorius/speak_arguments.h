@@ -20,7 +20,7 @@ struct SpeakArguments {
     std::string said, size;
     std::filesystem::path script;
     speech::SpeechStyle style;
-    double gestures = 0.6, blinks = 1;
+    double gestures = 0.6, blinks = 1, gaze = 1;
     int passes = 6;
 };
 

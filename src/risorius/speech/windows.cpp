@@ -24,7 +24,7 @@ constexpr ClassTimes kTimes[] = {
     {60, 40, 110, 110, 80, 80},      // vowel_weak
     {40, 18, 90, 100, 120, 120},     // closure
     {60, 25, 55, 50, 120, 120},      // labiodental
-    {70, 35, 90, 90, 120, 120},      // labiodental_soft
+    {60, 25, 90, 90, 120, 120},      // labiodental_soft
     {35, 29, 90, 150, 30, 50},       // sibilant
     {40, 30, 50, 45, 35, 50},        // sibilant_round
     {45, 35, 45, 45, 50, 45},        // round_cons
@@ -61,7 +61,8 @@ constexpr double kUnheardClosure_s = 0.080;
 // A label of a stop holds its release and breath, too.
 constexpr double kReleaseFraction = 0.2, kLongestRelease_s = 0.03;
 
-constexpr double kClosureJaw_mm = 5.5, kLabiodentalJaw_mm = 6, kSibilantJaw_mm = 3;
+constexpr double kClosureJaw_mm = 5.5, kLabiodentalJaw_mm = 6, kLabiodentalMore_mm = 2.5,
+                 kUpperLipLate_s = 0.01, kSibilantJaw_mm = 3;
 constexpr double kSoftContact = 0.6;
 // The dorsum touches the palate from the closure of k on, and leaves it at the release; it presses most in between.
 constexpr double kTouchingBody = 1.2, kBodyRelease_s = 0.010;
@@ -302,6 +303,9 @@ class Planner {
                                          kind == PhoneClass::kLabiodental ? 1.0 : kSoftContact,
                                          static_cast<int>(i)});
             bound(i, Parameter::kJaw, a, b, -kInfinite, kLabiodentalJaw_mm);
+            // The upper lip stays as low as beside close vowels: lips that open wide around the teeth are a snarl.
+            const double most_mm = value_of(target, Parameter::kGap) + kLabiodentalMore_mm;
+            bound(i, Parameter::kGap, a + kUpperLipLate_s, b, -kInfinite, most_mm);
         }
         if (kind == PhoneClass::kSibilant || kind == PhoneClass::kSibilantRound)
             bound(i, Parameter::kJaw, from_s + kOtherFrom * length_s, from_s + kOtherTo * length_s,
