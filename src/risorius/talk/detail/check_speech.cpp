@@ -29,7 +29,7 @@ constexpr double kDeeper = 2, kDeeperAtLeast_mm = 0.6, kDeepest_mm = 8;
 constexpr double kEarlier = 2;
 constexpr double kStuck_s = 0.05, kLessDeep = 0.6;
 constexpr double kPressed_mm = 0.05, kLessPressed = 0.25;
-constexpr double kSmallLeak_mm = 1;
+constexpr double kSmallLeak_mm = 1, kMuch_s = 0.005;
 // Median of what 15 closures of two sentences needed on the adult: 2.4 mm
 constexpr double kUsuallyDeeper_mm = 2;
 // Vowels that open too little: what is left as it is, and the most that is asked for beyond the plan
@@ -290,9 +290,12 @@ std::vector<ClosureChange> TriedClosures::next(const std::vector<ClosureCheck>& 
         const Tried& best = best_[i];
         if (!is_well(best.check) && !is_better(best.check, checks[i])) continue;
         const ClosureChange tried = change_in(last, checks[i].phone);
-        // Pressed as little as the best, it leaks, but opens in time: first it is pressed harder.
+        // Pressed as little as the best, it leaks, but opens in time: first it is pressed harder. Lips that part too early after ones
+        // that part much too late are for a change between the two.
+        const bool parts_early = checks[i].closed_until_s < checks[i].release_s - kHeldTo_s,
+                   much_late = !(best.check.open_s < best.check.release_s + kOpensLate_s + kMuch_s);
         if (!is_well(best.check) && checks[i].opened() && checks[i].max_gap_mm < kSmallLeak_mm &&
-            tried.deeper_mm <= best.change.deeper_mm)
+            tried.deeper_mm <= best.change.deeper_mm && !(parts_early && much_late))
             continue;
         ClosureChange& to = change_in(out, checks[i].phone);
         const auto between = [&](double ClosureChange::*value) {

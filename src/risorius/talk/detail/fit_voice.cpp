@@ -15,7 +15,7 @@ namespace risorius::talk {
 namespace {
 
 // Numbers of poses
-constexpr int kAround = 60, kClosed = 30, kLabiodental = 12, kPursed = 36, kOpen = 14, kRounds = 4;
+constexpr int kAround = 60, kClosed = 30, kLabiodental = 12, kPursed = 36, kRounds = 4;
 constexpr double kTouching_mm = 0.15;  // lips that touch
 constexpr double kSealStep_mm = 1.5, kSealEnd_mm = 4.5;
 constexpr int kIterations = 400;
@@ -54,13 +54,12 @@ class Fitter {
 
     RigVoice fit() {
         find_jaw_travel();
-        total_ = 16 + kAround + kClosed + kLabiodental + kPursed + kOpen +
+        total_ = 16 + kAround + kClosed + kLabiodental + kPursed +
                  kRounds * static_cast<int>(std::size(kTargets));
         add_visemes();
         for (int i = 0; i < kClosed; ++i) add(closed(i));
         for (int i = 0; i < kLabiodental; ++i) add(labiodental(i));
         for (int i = 0; i < kPursed; ++i) add(pursed(i));
-        for (int i = 0; i < kOpen; ++i) add(open(i));
         for (int i = 0; i < kAround; ++i) add(around(i));
         // Each round aims beyond a target by what the rounds before have missed it.
         std::vector<WantedMouth> targets = wanted_of_phones(), aims = targets;
@@ -239,21 +238,6 @@ class Fitter {
         }
         out.activation = out.activation.cwiseMin(1.0);
         out.jaw_open = jaw_open_of(1 + (i % 3 == 2 ? 4 : 8) * random(3000 + i, 2));
-        return out;
-    }
-
-    /// Open vowels: the jaw is low, both lips are drawn off the teeth, and the corners are held or drawn aside, because a low jaw
-    /// draws them in.
-    Asked open(int i) const {
-        Asked out = none();
-        out.jaw_open = jaw_open_of(8 + 6 * random(4000 + i, 0));
-        const double aside = random(4000 + i, 1);
-        set(out.activation, "depressor_labii_inferioris", 0.3 + 0.6 * random(4000 + i, 2));
-        set(out.activation, "levator_labii_superioris", 0.1 + 0.4 * random(4000 + i, 3));
-        set(out.activation, "risorius", 0.5 * aside);
-        set(out.activation, "zygomaticus_major", 0.3 * aside * random(4000 + i, 4));
-        set(out.activation, "buccinator", 0.3 * aside * random(4000 + i, 5));
-        set(out.activation, "orbicularis_oris_lower_peripheral", 0.2 * random(4000 + i, 6));
         return out;
     }
 
