@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "risorius/talk/detail/gesture_drive.h"
 
+#include "risorius/speech/gaze.h"
+
 namespace risorius::talk {
 
 namespace {
