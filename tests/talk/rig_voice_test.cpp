@@ -222,6 +222,39 @@ TEST(CheckSpeech, WhereLipsMeetTooEarlyTheSoundBeforeOpensThemFurther) {
     EXPECT_TRUE(changes_for({early}, {}).empty());
 }
 
+TEST(CheckSpeech, AChangeThatMadeAClosureWorseIsHalved) {
+    const ClosureCheck late{.phone = 7,
+                            .closure_s = 1,
+                            .release_s = 1.042,
+                            .contact_s = 1.002,
+                            .open_s = 1.07,
+                            .closed_until_s = 1.065};
+    ClosureCheck leaks = late, small = late, well = late;
+    leaks.max_gap_mm = leaks.least_gap_mm = 2;
+    small.max_gap_mm = 0.4;
+    leaks.open_s = small.open_s = well.open_s = 1.05;
+    const std::vector<speech::ClosureChange> none{{.phone = 7, .deeper_mm = 2}},
+        too_short{{.phone = 7, .deeper_mm = 1.5, .shorter_s = 0.03}};
+    TriedClosures tried;
+    tried.add({late}, none);
+    // Lips that press without need, and part late, press less.
+    const auto first = tried.next({late}, none);
+    ASSERT_EQ(first.size(), 1u);
+    EXPECT_EQ(first[0].deeper_mm, 1.5);
+    EXPECT_EQ(first[0].shorter_s, 0.015);
+    tried.add({leaks}, too_short);
+    const auto half = tried.next({leaks}, too_short);
+    EXPECT_EQ(half[0].deeper_mm, 1.75);
+    EXPECT_EQ(half[0].shorter_s, 0.015);
+    // A small leak of lips that open in time is pressed shut.
+    EXPECT_DOUBLE_EQ(tried.next({small}, too_short)[0].deeper_mm, 1.5 + 2 * 0.4 + 0.6);
+    // What is well stays, until the sounds around it make the same change worse.
+    tried.add({well}, too_short);
+    EXPECT_EQ(tried.next({leaks}, none)[0].shorter_s, 0.03);
+    tried.add({leaks}, too_short);
+    EXPECT_GT(tried.next({leaks}, too_short)[0].deeper_mm, 1.5);
+}
+
 TEST(CheckSpeech, LipsThatOpenLateAreAskedToBeApartSoonAfterTheRelease) {
     const ClosureCheck late{.phone = 7,
                             .closure_s = 1,

@@ -20,8 +20,8 @@ struct SpeakArguments {
     std::string said, size;
     std::filesystem::path script;
     speech::SpeechStyle style;
-    double gestures = 0.6, blinks = 1;
-    int passes = 4;
+    double gestures = 0.6, blinks = 1, gaze = 1;
+    int passes = 6;
 };
 
 /// Standard output and input as names of files.

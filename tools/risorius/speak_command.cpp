@@ -54,6 +54,9 @@ bool same(const std::vector<speech::ClosureChange>& one,
                       });
 }
 
+/// Vowels are widened at most this often in all.
+constexpr int kWidenings = 2;
+
 /// More closures hold; of as many, fewer of them stay shut too long; then, more meet in time, and vowels open as far as planned.
 bool is_better(const talk::CheckedSpeech& one, const talk::CheckedSpeech& other) {
     return std::tuple(one.held, one.opened, one.in_time, -one.missing_mm) >
@@ -81,6 +84,7 @@ talk::CheckedSpeech render_speech(SpeakArguments& arguments, talk::SpokenResult&
     options.style = arguments.style;
     options.gestures = arguments.gestures;
     options.blinks = arguments.blinks;
+    options.gaze = arguments.gaze;
     options.fps = arguments.render.fps.value_or(60);
     if (!arguments.script.empty()) options.base = JsonCursor::read_file(arguments.script);
     if (arguments.render.rig)
@@ -104,33 +108,35 @@ talk::CheckedSpeech render_speech(SpeakArguments& arguments, talk::SpokenResult&
     talk::CheckedSpeech best;
     std::vector<speech::ClosureChange> best_adjust;
     talk::TriedClosures tried;
-    bool alone = false;  // whether vowels were widened beside the best changes of one simulation
+    int widenings = 0;  // how often vowels were widened beside the best changes of one simulation
     for (int pass = 0;; ++pass) {
         talk::CheckedSpeech checked = checker.check(
             JsonCursor::from_json(script, script_file.string()), [&](double fraction) {
                 bar.monitor().report(fraction, "checking closures of the lips");
             });
         const std::vector<talk::ClosureCheck> closures = checked.closures.back();
-        if (pass == 0 || is_better(checked, best)) {
+        const bool gained = pass == 0 || is_better(checked, best);
+        if (gained) {
             best = std::move(checked);
             best_adjust = options.adjust;
             save();
         }
         tried.add(closures, options.adjust);
-        std::vector<speech::ClosureChange> changes = talk::changes_for(closures, options.adjust);
+        std::vector<speech::ClosureChange> changes = tried.next(closures, options.adjust);
         if (pass >= arguments.passes) {
             // The best of each closure need not be good together.
-            if (arguments.passes == 0 || alone || same(best_adjust, options.adjust)) break;
+            if (arguments.passes == 0 || widenings == kWidenings || (widenings > 0 && !gained))
+                break;
             changes = talk::widened(best.vowels.back(), best_adjust);
             if (same(changes, best_adjust)) break;
-            alone = true;
+            ++widenings;
         }
         // Closures come first: vowels are widened in the last pass, which counts only if no closure is lost.
         const bool all_held = best.held == best.total,
                    all_well = all_held && best.opened == best.total && best.in_time == best.total;
         const bool last =
             pass + 1 == arguments.passes || (pass > 0 && all_well) || same(changes, options.adjust);
-        if (last && !alone) {
+        if (last && widenings == 0) {
             changes = talk::widened(best.vowels.back(), all_held ? tried.best() : changes);
             if (same(changes, options.adjust)) break;
             pass = arguments.passes - 1;
@@ -269,6 +275,12 @@ void add_speak(CLI::App& app) {
     command
         ->add_option("--blinks", arguments->blinks,
                      "Blinks, 0 to 2: 1 is 26 a minute, most of them in pauses; 0: none")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 2.0));
+    command
+        ->add_option("--gaze", arguments->gaze,
+                     "Turns of the eyes, 0 to 2: away as a sentence begins, then about the "
+                     "listener's face; 0: none")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 2.0));
     command

@@ -77,6 +77,7 @@ class LiveSpeaker {
         options.style = arguments_.style;
         options.gestures = arguments_.gestures;
         options.blinks = arguments_.blinks;
+        options.gaze = arguments_.gaze;
         options.adjust = talk::usual_changes(utterance, table_);
         const Json script = talk::speak_script(utterance, options);
         const ReadingFormerOutput own_file;

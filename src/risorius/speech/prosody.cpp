@@ -154,6 +154,7 @@ Prosody prosody_of(const Utterance& utterance, const PhoneTable& table,
     Prosody out;
     if (options.gestures > 0) add_gestures(utterance, table, options.gestures, out);
     if (options.blinks > 0) add_blinks(utterance, options, out);
+    out.gaze = gaze_of(utterance, options.gaze, options.seed);
     return out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// \file
-/// What else a talking face does: brows and head move with stress, the head sinks at the end of a sentence, eyes blink in pauses.
+/// What else a talking face does: brows and head move with stress, the head sinks at the end of a sentence, eyes blink in pauses and
+/// look away as a sentence begins (gaze.h).
 ///
 /// Brows lead, the head follows. A brow raise begins 100 ms before its word and is at its peak on the stressed vowel. A nod begins
 /// with the vowel and is at its peak 120 ms later. Blinks come in pauses and at the ends of sentences, and never within 100 ms of
@@ -13,6 +14,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "risorius/speech/gaze.h"
 #include "risorius/speech/phone_table.h"
 #include "risorius/speech/utterance.h"
 
@@ -21,6 +23,7 @@ namespace risorius::speech {
 struct ProsodyOptions {
     double gestures = 0;  ///< of brows and head, [0, 2]; 0: none
     double blinks = 0;    ///< of the rate of 26 a minute, [0, 2]
+    double gaze = 0;      ///< of the angles of gaze.h, [0, 2]
     std::uint64_t seed = 1;
 };
 
@@ -35,6 +38,7 @@ struct Gesture {
 struct Prosody {
     std::vector<Gesture> gestures;
     std::vector<double> blinks_s;  ///< when they start
+    std::vector<GazeShift> gaze;
 };
 
 Prosody prosody_of(const Utterance& utterance, const PhoneTable& table,

@@ -24,7 +24,7 @@ constexpr ClassTimes kTimes[] = {
     {60, 40, 110, 110, 80, 80},      // vowel_weak
     {40, 18, 90, 100, 120, 120},     // closure
     {60, 25, 55, 50, 120, 120},      // labiodental
-    {70, 35, 90, 90, 120, 120},      // labiodental_soft
+    {60, 25, 90, 90, 120, 120},      // labiodental_soft
     {35, 29, 90, 150, 30, 50},       // sibilant
     {40, 30, 50, 45, 35, 50},        // sibilant_round
     {45, 35, 45, 45, 50, 45},        // round_cons
@@ -47,7 +47,9 @@ constexpr double kStressJaw = 1.15, kStressTau = 0.85;
 constexpr double kVowelFrom = 0.25, kVowelTo = 0.75, kOtherFrom = 0.3, kOtherTo = 0.7;
 constexpr double kOpenFrom = 0.30, kOpenTo = 0.75;  // in which a vowel must be open
 constexpr double kOpenGap_mm = 1.5, kOpenFraction = 0.3, kAfterLabial_s = 0.040;
+// Lips that open late: apart by this from here on; more of it and earlier by these for each second by which the closure is shorter
 constexpr double kPartsFrom_s = 0.012, kPartsTo_s = 0.030, kParts_mm = 1;
+constexpr double kPartsEarlier = 0.4, kPartsMore_mm_s = 60;
 constexpr double kContactLead_s = 0.015;  // labiodentals: the sound begins when the lip is there
 constexpr double kContactTo = 0.85;
 constexpr double kRelaxingPause_s = 0.15, kRelaxFrom = 0.35, kRelaxTo = 0.65;
@@ -59,7 +61,8 @@ constexpr double kUnheardClosure_s = 0.080;
 // A label of a stop holds its release and breath, too.
 constexpr double kReleaseFraction = 0.2, kLongestRelease_s = 0.03;
 
-constexpr double kClosureJaw_mm = 5.5, kLabiodentalJaw_mm = 6, kSibilantJaw_mm = 3;
+constexpr double kClosureJaw_mm = 5.5, kLabiodentalJaw_mm = 6, kLabiodentalMore_mm = 2.5,
+                 kUpperLipLate_s = 0.01, kSibilantJaw_mm = 3;
 constexpr double kSoftContact = 0.6;
 // The dorsum touches the palate from the closure of k on, and leaves it at the release; it presses most in between.
 constexpr double kTouchingBody = 1.2, kBodyRelease_s = 0.010;
@@ -300,6 +303,9 @@ class Planner {
                                          kind == PhoneClass::kLabiodental ? 1.0 : kSoftContact,
                                          static_cast<int>(i)});
             bound(i, Parameter::kJaw, a, b, -kInfinite, kLabiodentalJaw_mm);
+            // The upper lip stays as low as beside close vowels: lips that open wide around the teeth are a snarl.
+            const double most_mm = value_of(target, Parameter::kGap) + kLabiodentalMore_mm;
+            bound(i, Parameter::kGap, a + kUpperLipLate_s, b, -kInfinite, most_mm);
         }
         if (kind == PhoneClass::kSibilant || kind == PhoneClass::kSibilantRound)
             bound(i, Parameter::kJaw, from_s + kOtherFrom * length_s, from_s + kOtherTo * length_s,
@@ -349,8 +355,11 @@ void change_closures(const std::vector<ClosureChange>& changes, ArticulationTarg
         if (closure == targets.closures.end()) continue;
         // Lips that open late are apart soon after the release, whatever the next sound asks for.
         if (change.shorter_s > 0)
-            targets.bounds.push_back({Parameter::kGap, closure->release_s + kPartsFrom_s,
-                                      closure->release_s + kPartsTo_s, kParts_mm, kInfinite, -1});
+            targets.bounds.push_back(
+                {Parameter::kGap,
+                 closure->release_s + kPartsFrom_s - kPartsEarlier * change.shorter_s,
+                 closure->release_s + kPartsTo_s, kParts_mm + kPartsMore_mm_s * change.shorter_s,
+                 kInfinite, -1});
         const auto move = [&](double& from_s, double& to_s) {
             from_s -= change.earlier_s;
             to_s = std::max(from_s + 0.005, to_s - change.shorter_s);

@@ -21,7 +21,7 @@ namespace {
 constexpr double kLongestPhone_s = 10;
 
 speech::SpeechStyle read_style(const JsonCursor& json) {
-    json.allow_keys({"jaw", "lips", "anticipation", "gestures", "blinks"});
+    json.allow_keys({"jaw", "lips", "anticipation", "gestures", "blinks", "gaze"});
     speech::SpeechStyle style;
     if (const auto v = json.find("jaw")) style.jaw = v->number({0, 2});
     if (const auto v = json.find("lips")) style.lips = v->number({0, 2});
@@ -128,6 +128,7 @@ SayEvent read_say(const JsonCursor& event, double duration_s) {
         out.style = read_style(*v);
         if (const auto g = v->find("gestures")) out.gestures = g->number({0, 2});
         if (const auto b = v->find("blinks")) out.blinks = b->number({0, 2});
+        if (const auto g = v->find("gaze")) out.gaze = g->number({0, 2});
     }
     if (const auto v = event.find("adjust"))
         for (const JsonCursor& item : v->items()) {
@@ -255,9 +256,10 @@ PlannedSpeech plan_speech(const std::vector<JsonCursor>& says, const track::Scri
             speech::change_closures(event.adjust, changed);
             out.sources.push_back(
                 drive_of(speech::curves_of(changed), *voice, files.rig, event.start_s));
-            const speech::Prosody prosody = speech::prosody_of(
-                utterance, table,
-                {event.gestures, event.blinks, static_cast<std::uint64_t>(header.seed)});
+            const speech::Prosody prosody =
+                speech::prosody_of(utterance, table,
+                                   {event.gestures, event.blinks, event.gaze,
+                                    static_cast<std::uint64_t>(header.seed)});
             if (auto gestures = gesture_drive(prosody, files.rig, event.start_s))
                 out.sources.push_back(std::move(gestures));
             for (track::BlinkEvent& blink : blinks_of(prosody, files.rig, event.start_s))

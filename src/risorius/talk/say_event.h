@@ -24,7 +24,7 @@ struct SayEvent {
     /// When the first stop or nasal is released, in place of start_s
     std::optional<double> burst_s;
     speech::SpeechStyle style;
-    double gestures = 0, blinks = 0;            ///< keys of "style", see speech::ProsodyOptions
+    double gestures = 0, blinks = 0, gaze = 0;  ///< keys of "style", see speech::ProsodyOptions
     std::vector<speech::ClosureChange> adjust;  ///< "adjust": closures, as a check found them
     bool face = true;                           ///< false: only the sound, with a still face
     bool sound = true;                          ///< false: "none"

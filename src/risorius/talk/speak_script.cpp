@@ -46,6 +46,7 @@ Json speak_script(const speech::Utterance& utterance, const SpeakScriptOptions& 
         event["style"]["anticipation"] = options.style.anticipation;
     if (options.gestures > 0) event["style"]["gestures"] = options.gestures;
     if (options.blinks > 0) event["style"]["blinks"] = options.blinks;
+    if (options.gaze > 0) event["style"]["gaze"] = options.gaze;
     for (const speech::ClosureChange& change : options.adjust) {
         Json one = json_object({{"phone", change.phone}});
         const auto put = [&](const char* key, double value) {

@@ -17,7 +17,7 @@ struct SpeakScriptOptions {
     std::filesystem::path utterance;   ///< the same
     std::optional<JsonCursor> base{};  ///< a script to which the event is added
     speech::SpeechStyle style{};
-    double gestures = 0, blinks = 0;  ///< of "style"
+    double gestures = 0, blinks = 0, gaze = 0;  ///< of "style"
     std::vector<speech::ClosureChange> adjust{};
     int fps = 60;
 };

@@ -28,11 +28,13 @@ constexpr double kDeeper = 2, kDeeperAtLeast_mm = 0.6, kDeepest_mm = 8;
 // The lips gain less than half of the time by which they begin earlier.
 constexpr double kEarlier = 2;
 constexpr double kStuck_s = 0.05, kLessDeep = 0.6;
+constexpr double kPressed_mm = 0.05, kLessPressed = 0.25;
+constexpr double kSmallLeak_mm = 1, kMuch_s = 0.005;
 // Median of what 15 closures of two sentences needed on the adult: 2.4 mm
 constexpr double kUsuallyDeeper_mm = 2;
 // Vowels that open too little: what is left as it is, and the most that is asked for beyond the plan
 constexpr double kMissing_mm = 1, kWider = 0.8, kWidest_mm = 6;
-constexpr double kEarliest_s = 0.06, kShortest_s = 0.03, kLongest_s = 0.04;
+constexpr double kEarliest_s = 0.06, kShortest_s = 0.06, kLongest_s = 0.04;
 
 std::string cell(double value, int decimals) {
     if (std::isnan(value)) return "\t";
@@ -182,6 +184,10 @@ ClosureChange change_for(const ClosureCheck& check, const ClosureChange& before)
     else if (check.held() && check.open_s > check.release_s + kOpensLate_s)
         change.shorter_s =
             std::min(check.open_s - check.release_s - kOpensLate_s / 2, kMaxEarlier_s / 2);
+    // Pressed harder than needed
+    if (check.held() && check.max_gap_mm < kPressed_mm &&
+        check.open_s > check.release_s + kOpensLate_s)
+        change.deeper_mm = -kLessPressed * before.deeper_mm;
     return change;
 }
 
@@ -225,6 +231,17 @@ std::vector<ClosureChange> changes_for(const std::vector<ClosureCheck>& checks,
 
 namespace {
 
+ClosureChange change_in(const std::vector<ClosureChange>& changes, int phone) {
+    const auto found = std::find_if(changes.begin(), changes.end(),
+                                    [&](const ClosureChange& c) { return c.phone == phone; });
+    return found != changes.end() ? *found : ClosureChange{phone};
+}
+ClosureChange& change_in(std::vector<ClosureChange>& changes, int phone) {
+    const auto found = std::find_if(changes.begin(), changes.end(),
+                                    [&](const ClosureChange& c) { return c.phone == phone; });
+    return found != changes.end() ? *found : changes.emplace_back(ClosureChange{phone});
+}
+
 /// By how much the lips meet or part at the wrong time, s.
 double off_s(const ClosureCheck& check) {
     const double late_s = check.contact_s - check.closure_s - kLate_s,
@@ -242,22 +259,54 @@ bool is_better(const ClosureCheck& one, const ClosureCheck& other) {
     return off_s(one) < off_s(other);
 }
 
+bool is_well(const ClosureCheck& check) {
+    return check.held() && check.in_time() && check.opened();
+}
+
+/// The newest simulation counts: the sounds around a closure may have changed.
+bool is_same(const ClosureChange& one, const ClosureChange& other) {
+    return one.deeper_mm == other.deeper_mm && one.earlier_s == other.earlier_s &&
+           one.shorter_s == other.shorter_s;
+}
+
 }  // namespace
 
 void TriedClosures::add(const std::vector<ClosureCheck>& checks,
                         const std::vector<ClosureChange>& changes) {
-    const auto change_of = [&](int phone) {
-        const auto found = std::find_if(changes.begin(), changes.end(),
-                                        [&](const ClosureChange& c) { return c.phone == phone; });
-        return found != changes.end() ? *found : ClosureChange{phone};
-    };
     for (std::size_t i = 0; i < checks.size(); ++i) {
-        Tried one{checks[i], change_of(checks[i].phone), change_of(checks[i].phone - 1)};
+        Tried one{checks[i], change_in(changes, checks[i].phone),
+                  change_in(changes, checks[i].phone - 1)};
         if (i == best_.size())
             best_.push_back(std::move(one));
-        else if (is_better(one.check, best_[i].check))
+        else if (is_better(one.check, best_[i].check) || is_same(one.change, best_[i].change))
             best_[i] = std::move(one);
     }
+}
+
+std::vector<ClosureChange> TriedClosures::next(const std::vector<ClosureCheck>& checks,
+                                               const std::vector<ClosureChange>& last) const {
+    std::vector<ClosureChange> out = changes_for(checks, last);
+    for (std::size_t i = 0; i < checks.size() && i < best_.size(); ++i) {
+        const Tried& best = best_[i];
+        if (!is_well(best.check) && !is_better(best.check, checks[i])) continue;
+        const ClosureChange tried = change_in(last, checks[i].phone);
+        // Pressed as little as the best, it leaks, but opens in time: first it is pressed harder. Lips that part too early after ones
+        // that part much too late are for a change between the two.
+        const bool parts_early = checks[i].closed_until_s < checks[i].release_s - kHeldTo_s,
+                   much_late = !(best.check.open_s < best.check.release_s + kOpensLate_s + kMuch_s);
+        if (!is_well(best.check) && checks[i].opened() && checks[i].max_gap_mm < kSmallLeak_mm &&
+            tried.deeper_mm <= best.change.deeper_mm && !(parts_early && much_late))
+            continue;
+        ClosureChange& to = change_in(out, checks[i].phone);
+        const auto between = [&](double ClosureChange::*value) {
+            to.*value =
+                is_well(best.check) ? best.change.*value : (best.change.*value + tried.*value) / 2;
+        };
+        between(&ClosureChange::deeper_mm);
+        between(&ClosureChange::earlier_s);
+        between(&ClosureChange::shorter_s);
+    }
+    return out;
 }
 
 std::vector<ClosureChange> TriedClosures::best() const {

@@ -85,6 +85,9 @@ class TriedClosures {
   public:
     void add(const std::vector<ClosureCheck>& checks,
              const std::vector<speech::ClosureChange>& changes);
+    /// What to try after `last`: changes_for(), but half-way back to the best where `last` was worse, and the best where all is well.
+    std::vector<speech::ClosureChange> next(const std::vector<ClosureCheck>& checks,
+                                            const std::vector<speech::ClosureChange>& last) const;
     /// All of them together, with the changes of vowels that belong to them.
     std::vector<speech::ClosureChange> best() const;
 

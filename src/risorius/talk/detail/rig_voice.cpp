@@ -20,6 +20,8 @@ constexpr double kGapWeight = 1, kBoundWeight = 3, kWidthWeight = 0.46, kProtrus
 constexpr double kFarCost = 0.06, kFarGap_mm = 1.5, kFarJaw_mm = 1.5, kFarWidth_mm = 3,
                  kFarProtrusion_mm = 2;
 constexpr double kTeethOverGap = 0.8;
+// On the way to the teeth the lip is as far from them as the gap is wider than in f.
+constexpr double kGapAtTeeth_mm = 4;
 enum Row { kGap, kWidth, kUpper, kLower, kTeeth, kEffort, kSum, kRows };
 
 Json numbers(const Eigen::VectorXd& values) {
@@ -88,7 +90,8 @@ Eigen::VectorXd RigVoice::activation_for(const WantedMouth& wanted, Eigen::Vecto
     y[kGap] = wanted.gap - kGapOfJaw * wanted.jaw;
     y[kWidth] = wanted.width;
     y[kUpper] = y[kLower] = wanted.protrusion;
-    y[kTeeth] = -kGapOfJaw * wanted.jaw;
+    const double wanted_teeth = std::max(0.0, wanted.gap - kGapAtTeeth_mm);
+    y[kTeeth] = wanted_teeth - kGapOfJaw * wanted.jaw;
     y[kEffort] = 0;
     y[kSum] = 1;
     Eigen::VectorXd cost(n);
@@ -104,7 +107,7 @@ Eigen::VectorXd RigVoice::activation_for(const WantedMouth& wanted, Eigen::Vecto
             squared((pose.mouth.width - wanted.width) / kFarWidth_mm) +
             squared((pose.mouth.upper_protrusion - wanted.protrusion) / kFarProtrusion_mm) +
             squared((pose.mouth.lower_protrusion - wanted.protrusion) / kFarProtrusion_mm);
-        far += wanted.labiodental * squared(pose.mouth.teeth / kFarGap_mm);
+        far += wanted.labiodental * squared((pose.mouth.teeth - wanted_teeth) / kFarGap_mm);
         cost[i] = 0.5 * kFarCost * far;
     }
     B = weight.asDiagonal() * B;
