@@ -84,6 +84,12 @@ double LockGround::length_m(const Vec3& d) const {
                    (1 - top) * (side * style_.side_mm + (1 - side) * style_.back_mm));
 }
 
+double LockGround::wave_phase(const Vec3& d) const {
+    // Locks that lie side by side wave together: by their way from the parting, and a little by chance.
+    const double from_m = 0.1 * std::abs(std::asin(std::clamp(d.x(), -1.0, 1.0)) - parting_m_ / 0.1);
+    return from_m / (1e-3 * style_.pitch_mm) + 0.35 * std::sin(7 * d.z() + 3 * d.y());
+}
+
 bool LockGround::in_fringe(const Vec3& d) const {
     constexpr double kDeep_m = 0.038;
     return style_.fringe > 0 && d.z() > 0.1 && std::abs(d.x()) < 0.55 && !grows(d, kDeep_m);
@@ -165,7 +171,7 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
     if (style_.flow == HairFlow::kParting && !style_.hangs)
         length *= 0.3 + 0.7 * ramp(kNape_m, 0.0, head_.radius_m(d, false) * d.y());
     length = std::min(length, longest_m);
-    const double turn = 2 * std::numbers::pi * random.next(), stray = random.next() - 0.5,
+    const double phase = random.next(), turn = 2 * std::numbers::pi * (style_.flow == HairFlow::kParting ? wave_phase(d) + 0.12 * phase : phase), stray = random.next() - 0.5,
                  cut = tips_m_ + 0.016 * (random.next() - 0.5);
     const double cap = cap_m(d), layer = 1e-3 * style_.layers_mm * guide.layer,
                  loft = 1e-3 * style_.loft_mm;

@@ -13,6 +13,7 @@ layout(location = 1) in vec3 in_along;
 layout(location = 2) in vec3 in_out;
 layout(location = 3) in vec2 in_strand;
 layout(location = 4) in vec3 in_light;     // share of the light, factor of the tone, added share of white hairs
+layout(location = 5) in vec2 in_thin;      // place across the lock, -1..1; 0..1, how thin the hair is along it
 layout(binding = 0) uniform sampler2DShadow shadow_map;
 uniform vec3 hair_tone;                    // linear
 uniform vec3 white_tone;
@@ -21,6 +22,7 @@ out vec3 white;
 out vec3 shine;
 out vec2 strand;
 out float grey;
+out vec2 thin;
 out vec3 position;
 
 float highlight(vec3 t, vec3 h, float power) {
@@ -49,6 +51,7 @@ void main() {
     vec3 gloss = key_card.rgb * (lamp * highlight(second, h, 18.0)) + 0.35 * rim * highlight(t, back, 18.0);
     shine = gloss * (0.85 * tone + 0.020) + key_card.rgb * (0.07 * lamp * highlight(first, h, 60.0)) + 0.009 * light;
     grey = in_light.z;
+    thin = in_thin;
     position = in_position;
     strand = in_strand;
     gl_Position = clip_from_world * vec4(in_position, 1.0);
@@ -61,10 +64,22 @@ in vec3 white;
 in vec3 shine;
 in vec2 strand;
 in float grey;
+in vec2 thin;
 out vec4 colour;
 layout(binding = 11) uniform sampler2D strand_map;
 uniform bool has_white;
+// At its sides and its tip a lock is single hairs: strands of the same texture, half as coarse again, so that they are seen.
+void cut() {
+    if (!has_gaps) return;
+    float side = abs(thin.x);
+    float bare = max(0.50 * smoothstep(0.40, 1.0, side), thin.y);
+    if (bare < 0.15) return;
+    float strands = texture(strand_map, strand * vec2(0.75, 0.5) + 0.3).r;
+    if (strands < 0.08 + 0.80 * bare) discard;
+}
+
 void main() {
+    cut();
     vec2 hairs = texture(strand_map, strand).rg;
     float bright = hairs.r + hairs.r * hairs.r;      // gaps between strands are dark
     vec3 own = dark;
@@ -93,8 +108,9 @@ std::string told_of_hair(bool layer) {
 }  // namespace
 
 std::string lock_vertex_shader() { return frame_chunk() + lights_chunk() + kLockVertex; }
-std::string lock_shader(bool layer) {
-    return frame_chunk() + lights_chunk() + "in vec3 position;\n" + told_of_hair(layer) +
+std::string lock_shader(bool layer, bool gaps) {
+    return frame_chunk() + lights_chunk() + "in vec3 position;\nconst bool has_gaps = " +
+           (gaps ? "true;\n" : "false;\n") + told_of_hair(layer) +
            kLockFragment;
 }
 
