@@ -68,12 +68,16 @@ double LockGround::cap_m(const Vec3& direction) const {
 double LockGround::skin_m(const Vec3& d) const {
     // Below the head the outermost skin is that of the shoulders, which hair of these styles does not touch.
     constexpr double kBelow = -0.25, kNeck_m = 0.115;
-    double radius = head_.radius_m(d, style_.over_ears);
-    if (style_.over_ears)  // comes off the head above an ear, and does not fall in at once below it
+    double radius = head_.radius_m(d, false);
+    if (style_.over_ears) {
+        // It comes off the head above an ear, and does not fall in at once below it. The ear is pressed to the head.
+        constexpr double kPressed = 0.45;
+        double ear = head_.radius_m(d, true);
         for (const double up : {-0.45, -0.30, -0.15, 0.15, 0.30, 0.45})
-            radius =
-                std::max(radius, head_.radius_m(Vec3(d + up * Vec3::UnitY()).normalized(), true) -
-                                     0.018 * std::abs(up));
+            ear = std::max(ear, head_.radius_m(Vec3(d + up * Vec3::UnitY()).normalized(), true) -
+                                    0.018 * std::abs(up));
+        radius += (1 - kPressed) * std::max(0.0, ear - radius);
+    }
     return d.y() < kBelow && radius > kNeck_m ? 0 : radius;
 }
 
@@ -214,7 +218,7 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
         if (!tuft) {
             const bool free = p.y() < loose_m && style_.hangs;
             // Hanging hair turns in towards the neck above its tips.
-            const double in = 1.1 * ramp(cut + kTurnedIn_m, cut, p.y());
+            const double in = 0.7 * ramp(cut + kTurnedIn_m, cut, p.y());
             const Vec3 onward = free ? Vec3((0.12 - in) * v.x() - in * out.x(), -1,
                                             (0.12 - in) * v.z() - in * out.z())
                                      : way_at(p);

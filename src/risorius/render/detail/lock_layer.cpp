@@ -24,6 +24,11 @@ bool is_thin(const HairVertex& v) { return v.across != 0 || v.open > 0; }
 ShaderConstants with_tones(const Appearance& appearance, ShaderConstants constants) {
     constants.set("hair_tone", linear_from_srgb(appearance.hair_tone));
     constants.set("white_tone", linear_from_srgb(kWhiteHair));
+    // Combed locks that lie over and under each other would shade each other in patches.
+    const LockStyle* style = lock_style(appearance.hair_style);
+    constants.set("own_shadow", style && style->flow == HairFlow::kParting ? 0.014 : 0.004);
+    // Tight curls mirror in all directions.
+    constants.set("mirrors", style && style->flow == HairFlow::kRadial ? 0.4 : 1.0);
     constants.set("has_white", white_share(appearance) > 0);
     return constants;
 }

@@ -257,7 +257,7 @@ void add_cap(const LockGround& ground, const LockStyle& style, const Scene& scen
             v.strand = style.flow == HairFlow::kParting
                            ? Vec2(at.z() / kStrandsAcross_m,
                                   std::abs(at.x() - ground.parting_m()) / kStrandsAlong_m)
-                           : Vec2(12.0 * column / kCapColumns, 0.1 * angle / kStrandsAlong_m);
+                           : Vec2(18.0 * column / kCapColumns, 0.1 * angle / kStrandsAlong_m);
             v.lit = style.lit_cap;
             v.open = soft_step(kCapRows - kThinRows, kCapRows, row);
             hair.vertices.push_back(v);

@@ -17,6 +17,8 @@ layout(location = 5) in vec2 in_thin;      // place across the lock, -1..1; 0..1
 layout(binding = 0) uniform sampler2DShadow shadow_map;
 uniform vec3 hair_tone;                    // linear
 uniform vec3 white_tone;
+uniform float own_shadow;                  // m
+uniform float mirrors;                     // factor of the highlights
 out vec3 dark;       // what hairs of the tone, and white ones, send to the camera
 out vec3 white;
 out vec3 shine;
@@ -33,8 +35,8 @@ float highlight(vec3 t, vec3 h, float power) {
 void main() {
     vec3 v = normalize(camera.xyz - in_position), k = key_direction.xyz, n = in_out;
     vec3 t = normalize(in_along);
-    // Own shadow, from what lies four millimetres nearer to the lamp
-    vec3 c = (shadow_from_world * vec4(in_position + 0.004 * k + 0.002 * n, 1.0)).xyz;
+    // Own shadow, from what lies some millimetres nearer to the lamp
+    vec3 c = (shadow_from_world * vec4(in_position + own_shadow * k + 0.5 * own_shadow * n, 1.0)).xyz;
     float s = textureLod(shadow_map, c, 0.0);
     float nk = dot(n, k), tk = dot(t, k);
     float form = smoothstep(-0.35, 0.75, nk);
@@ -44,7 +46,7 @@ void main() {
     vec3 light = in_light.x * (key_card.rgb * (s * around) + even + 0.5 * rim);
     vec3 h = normalize(v + k), back = normalize(v + rim_direction.xyz);
     vec3 first = normalize(t - 0.10 * n), second = normalize(t + 0.12 * n);
-    float lamp = s * form * in_light.x;
+    float lamp = mirrors * s * form * in_light.x;
     vec3 tone = hair_tone * in_light.y;
     dark = tone * light;
     white = white_tone * light;
@@ -75,7 +77,7 @@ void cut() {
     float bare = max(0.50 * smoothstep(0.40, 1.0, side), thin.y);
     if (bare < 0.15) return;
     float strands = texture(strand_map, strand * vec2(0.75, 0.5) + 0.3).r;
-    if (strands < 0.08 + 0.80 * bare) discard;
+    if (0.5 + 2.4 * (strands - 0.46) < 0.98 * bare) discard;
 }
 
 void main() {
