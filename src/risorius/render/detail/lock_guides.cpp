@@ -15,6 +15,7 @@ constexpr double kHairMapPerMetre = 2.5;  ///< of the paint map, for a head of 0
 constexpr double kStep_m = 0.004;         ///< along a guide before it is resampled
 constexpr double kAboveSkin_m = 0.0008;
 constexpr double kTurnedIn_m = 0.045;  ///< above the tips of hanging hair
+constexpr double kAtNeck = -0.5;  ///< height of directions from the centre that meet the neck
 constexpr double kNape_m = -0.055;     ///< the lowest hair, from the height of the tragia
 
 double ramp(double from, double to, double x) {
@@ -237,6 +238,8 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
                          (std::max(cap_m(now) - 1e-3 * style_.sunk_mm, 0.0) + lies * layer) * rise,
                      most = least + loft + (p.y() < loose_m ? 0.05 : 0.0);
         const double r = (p - centre).norm();
+        // Hair that meets the neck is hidden behind it.
+        if (style_.hangs && skin > 0 && now.y() < kAtNeck && r < least - 0.001) break;
         const double kept = skin > 0 ? std::clamp(r, least, most) : r;
         p = centre + kept * now;
         if (kept != r) v = across_plane(v, now).normalized();
