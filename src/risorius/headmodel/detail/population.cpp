@@ -173,7 +173,7 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
     const double seems = person.age + 5 * std::clamp(draw.normal(), -2.0, 2.0);
     person.hairdo.age_lines = to_hundredths(std::clamp((seems - 22) / 30, 0.0, 1.0));
     // The colour grows uneven with sun and years; shares from what a reader of ages makes of pictures.
-    person.hairdo.mottling = to_hundredths(0.7 * std::clamp(0.4 + (seems - 22) / 60, 0.3, 1.0));
+    person.hairdo.mottling = to_hundredths(0.78 * std::clamp(0.4 + (seems - 22) / 60, 0.3, 1.0));
     // In the mean 26 % of grey hair at 53, 32 % at 58, 40 % at 63 years (Panhard et al. 2012).
     const double greying = person.age + 10 * std::clamp(draw.normal(), -2.0, 2.0);
     double grey = std::clamp((greying - 40) / 50, 0.0, 1.0);
@@ -224,11 +224,12 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
     if (fringe < 0.5 && person.hairdo.lock_wave < 0.5 &&
         (style == "bob" || style == "short_parted"))
         person.hairdo.fringe = to_hundredths(0.4 + 1.2 * fringe);
-    // Of men who go bald, one in five shaves his head, and one in five keeps a thin crop. Estimates.
+    // Of men who go bald, one in five shaves his head, and one in five has the rest cut to stubble. Estimates.
     const double bald = draw.even();
     if (style == "bald_fringe" && bald < 0.4) {
         person.hairdo.hairline_form = "receding";
-        person.hairdo.style = bald < 0.2 ? "shaven" : "crop";
+        person.hairdo.style = "shaven";
+        if (bald >= 0.2) person.scalp_hair = std::max(person.scalp_hair, 0.85);
     }
 }
 
@@ -268,6 +269,29 @@ Form look_of(const Identity& person, const Form& usual, const Form& form,
     return look;
 }
 
+/// What a seed of a row wears: hair and beard. They do not depend on its form.
+Identity worn_by(unsigned seed, const std::string& ancestry, const DesignTables& tables) {
+    Draw draw(seed);
+    Identity person = placed_person(seed, tables);
+    drawn_form(draw, tables);
+    draw_colours(draw, ancestry, person);
+    draw_hair(seed, ancestry, tables, person);
+    return person;
+}
+
+/// How much hair and beard tell two people apart, in the unit of squared looks. Estimates: those with the same hair need other faces.
+double hair_apart(const Identity& a, const Identity& b) {
+    constexpr double kStyle = 40, kBeard = 25;
+    return (a.hairdo.style != b.hairdo.style ? kStyle : 0) +
+           (a.hairdo.beard_form != b.hairdo.beard_form ? kBeard : 0);
+}
+
+/// A person before in the row, as seen
+struct Seen {
+    Form look;
+    Identity worn;
+};
+
 /// One of the forms that a seed draws; the first is 0.
 struct FormDraw {
     Form form;
@@ -291,12 +315,13 @@ FormDraw form_in_row(unsigned seed, const DesignTables& tables) {
         return {drawn_form(draw, tables), 0};
     }
     const unsigned first = (seed - 1) / kRow * kRow + 1;
-    std::vector<Form> looks;
+    std::vector<Seen> looks;
     FormDraw best{};
     for (unsigned member = first; member <= seed; ++member) {
         Identity person = placed_person(member, tables);
         const std::string ancestry = person.ancestry.begin()->first;
         const auto shape = person_shape(person, tables);
+        const Identity worn = worn_by(member, ancestry, tables);
         Form usual, best_look;
         for (const PopulationParameter& p : tables.population) usual.push_back(shape.at(p.name));
         double farthest = -1;
@@ -307,14 +332,15 @@ FormDraw form_in_row(unsigned seed, const DesignTables& tables) {
             draw_skin(member, c, ancestry, person);
             Form look = look_of(person, usual, form, tables);
             double nearest = std::numeric_limits<double>::infinity();
-            for (const Form& other : looks)
-                nearest = std::min(nearest, squared_distance(look, other));
+            for (const Seen& other : looks)
+                nearest = std::min(
+                    nearest, squared_distance(look, other.look) + hair_apart(worn, other.worn));
             if (nearest <= farthest) continue;
             farthest = nearest;
             best = {std::move(form), c};
             best_look = std::move(look);
         }
-        looks.push_back(std::move(best_look));
+        looks.push_back({std::move(best_look), worn});
         if (looks.size() > kBefore) looks.erase(looks.begin());
     }
     return best;

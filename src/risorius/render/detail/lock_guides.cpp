@@ -15,7 +15,7 @@ constexpr double kHairMapPerMetre = 2.5;  ///< of the paint map, for a head of 0
 constexpr double kStep_m = 0.004;         ///< along a guide before it is resampled
 constexpr double kAboveSkin_m = 0.0008;
 constexpr double kTurnedIn_m = 0.045;  ///< above the tips of hanging hair
-constexpr double kAtNeck = -0.5;  ///< height of directions from the centre that meet the neck
+constexpr double kAtNeck = -0.5;       ///< height of directions from the centre that meet the neck
 constexpr double kNape_m = -0.055;     ///< the lowest hair, from the height of the tragia
 
 double ramp(double from, double to, double x) {
@@ -91,7 +91,8 @@ double LockGround::length_m(const Vec3& d) const {
 
 double LockGround::wave_phase(const Vec3& d) const {
     // Locks that lie side by side wave together: by their way from the parting, and a little by chance.
-    const double from_m = 0.1 * std::abs(std::asin(std::clamp(d.x(), -1.0, 1.0)) - parting_m_ / 0.1);
+    const double from_m =
+        0.1 * std::abs(std::asin(std::clamp(d.x(), -1.0, 1.0)) - parting_m_ / 0.1);
     return from_m / (1e-3 * style_.pitch_mm) + 0.35 * std::sin(7 * d.z() + 3 * d.y());
 }
 
@@ -176,8 +177,10 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
     if (style_.flow == HairFlow::kParting && !style_.hangs)
         length *= 0.3 + 0.7 * ramp(kNape_m, 0.0, head_.radius_m(d, false) * d.y());
     length = std::min(length, longest_m);
-    const double phase = random.next(), turn = 2 * std::numbers::pi * (style_.flow == HairFlow::kParting ? wave_phase(d) + 0.12 * phase : phase), stray = random.next() - 0.5,
-                 cut = tips_m_ + 0.016 * (random.next() - 0.5);
+    const double phase = random.next(),
+                 turn = 2 * std::numbers::pi *
+                        (style_.flow == HairFlow::kParting ? wave_phase(d) + 0.12 * phase : phase),
+                 stray = random.next() - 0.5, cut = tips_m_ + 0.016 * (random.next() - 0.5);
     const double cap = cap_m(d), layer = 1e-3 * style_.layers_mm * guide.layer,
                  loft = 1e-3 * style_.loft_mm;
     const bool tuft = style_.flow == HairFlow::kRadial, fringe = in_fringe(d);

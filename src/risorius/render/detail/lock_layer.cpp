@@ -57,7 +57,8 @@ LockLayer::LockLayer(const Scene& scene, Hair hair, const Camera& camera,
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
     GLuint location = 0;
     std::size_t offset = 0;
-    for (const int size : {3, 3, 3, 2, 3, 2}) {  // position, along, out, strand, light-tone-grey, thin
+    for (const int size :
+         {3, 3, 3, 2, 3, 2}) {  // position, along, out, strand, light-tone-grey, thin
         glEnableVertexAttribArray(location);
         glVertexAttribPointer(location++, size, GL_FLOAT, GL_FALSE, kLockFloats * sizeof(float),
                               reinterpret_cast<const void*>(offset * sizeof(float)));
@@ -84,7 +85,8 @@ void LockLayer::upload(const Pose& pose) {
                    along = posed.turned * v.along, out = posed.turned * v.out;
         for (const Vec3* three : {&p, &along, &out})
             for (int k = 0; k < 3; ++k) vertices_.push_back(static_cast<float>((*three)[k]));
-        for (const double one : {v.strand.x(), v.strand.y(), v.lit, v.tone, v.grey, v.across, v.open})
+        for (const double one :
+             {v.strand.x(), v.strand.y(), v.lit, v.tone, v.grey, v.across, v.open})
             vertices_.push_back(static_cast<float>(one));
     }
     choose(posed);
@@ -135,8 +137,7 @@ void LockLayer::choose(const PosedHair& posed) {
         for (std::size_t i = 0; i < piece.indices; i += 3) {
             const unsigned* corner = hair_.triangles.data() + piece.first_index + i;
             if (seen[corner[0] - piece.first_vertex] || seen[corner[1] - piece.first_vertex] ||
-                seen[corner[2] - piece.first_vertex])
-            {
+                seen[corner[2] - piece.first_vertex]) {
                 const bool thin = is_thin(hair_.vertices[corner[0]]) ||
                                   is_thin(hair_.vertices[corner[1]]) ||
                                   is_thin(hair_.vertices[corner[2]]);

@@ -111,9 +111,9 @@ std::string told_of_hair(bool layer) {
 
 std::string lock_vertex_shader() { return frame_chunk() + lights_chunk() + kLockVertex; }
 std::string lock_shader(bool layer, bool gaps) {
-    return frame_chunk() + lights_chunk() + "in vec3 position;\nconst bool has_gaps = " +
-           (gaps ? "true;\n" : "false;\n") + told_of_hair(layer) +
-           kLockFragment;
+    return frame_chunk() + lights_chunk() +
+           "in vec3 position;\nconst bool has_gaps = " + (gaps ? "true;\n" : "false;\n") +
+           told_of_hair(layer) + kLockFragment;
 }
 
 }  // namespace risorius::render
