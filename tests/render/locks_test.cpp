@@ -62,6 +62,31 @@ TEST(Locks, EveryStyleHasLocksThatLieOnTheHeadAndNoTwoAreAlike) {
     EXPECT_EQ(counts.size() + 1, hair_style_names().size());
 }
 
+TEST(Locks, OuterLocksAndTheBorderOfTheCapAreSingleHairs) {
+    const HairyHead head;
+    const Hair hair = hair_on(head.scene, "bob");
+    std::size_t with_gaps = 0, whole = 0;
+    for (const HairPiece& piece : hair.pieces) {
+        double side = 0, first = 1, last = 0;
+        for (std::size_t i = 0; i < piece.vertices; ++i) {
+            const HairVertex& v = hair.vertices[piece.first_vertex + i];
+            side = std::max(side, std::abs(v.across));
+            first = std::min(first, v.open);
+            last = std::max(last, v.open);
+        }
+        EXPECT_EQ(first, 0);
+        if (piece.columns == 0) {
+            EXPECT_EQ(last, 1);
+            EXPECT_EQ(side, 0);
+        } else {
+            ++(side > 0 ? with_gaps : whole);
+            if (side > 0) EXPECT_GT(last, 0.5);
+        }
+    }
+    EXPECT_GT(with_gaps, 50U);
+    EXPECT_GT(whole, 50U);
+}
+
 TEST(Locks, ThereAreFewRowsWhereALockIsStraightAndAllOfThemWhereItCurls) {
     const HairyHead head;
     const auto rows = [&](const char* style) {  // mean of the locks that are no single hairs

@@ -25,7 +25,7 @@ Complexion complexion_of(const Appearance& appearance) {
     const double pigment = 0.16 * around_zero(), blood = 0.14 * around_zero();
     out.lips = (-much * Vec3(pigment, pigment + blood, pigment + 0.9 * blood)).array().exp();
     out.brows = std::exp(much * 0.3 * std::clamp(around_zero(), -1.5, 1.0));
-    out.lashes = std::exp(much * 0.35 * around_zero());
+    out.lashes = std::exp(much * (0.12 + 0.35 * around_zero()));
     const double many = random.next();
     out.moles = static_cast<int>(much * 7 * many * many);
     // Three zones of the nose lie over each other; more would look like a cold.

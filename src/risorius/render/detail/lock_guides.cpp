@@ -15,6 +15,7 @@ constexpr double kHairMapPerMetre = 2.5;  ///< of the paint map, for a head of 0
 constexpr double kStep_m = 0.004;         ///< along a guide before it is resampled
 constexpr double kAboveSkin_m = 0.0008;
 constexpr double kTurnedIn_m = 0.045;  ///< above the tips of hanging hair
+constexpr double kAtNeck = -0.5;       ///< height of directions from the centre that meet the neck
 constexpr double kNape_m = -0.055;     ///< the lowest hair, from the height of the tragia
 
 double ramp(double from, double to, double x) {
@@ -68,12 +69,16 @@ double LockGround::cap_m(const Vec3& direction) const {
 double LockGround::skin_m(const Vec3& d) const {
     // Below the head the outermost skin is that of the shoulders, which hair of these styles does not touch.
     constexpr double kBelow = -0.25, kNeck_m = 0.115;
-    double radius = head_.radius_m(d, style_.over_ears);
-    if (style_.over_ears)  // comes off the head above an ear, and does not fall in at once below it
+    double radius = head_.radius_m(d, false);
+    if (style_.over_ears) {
+        // It comes off the head above an ear, and does not fall in at once below it. The ear is pressed to the head.
+        constexpr double kPressed = 0.45;
+        double ear = head_.radius_m(d, true);
         for (const double up : {-0.45, -0.30, -0.15, 0.15, 0.30, 0.45})
-            radius =
-                std::max(radius, head_.radius_m(Vec3(d + up * Vec3::UnitY()).normalized(), true) -
-                                     0.018 * std::abs(up));
+            ear = std::max(ear, head_.radius_m(Vec3(d + up * Vec3::UnitY()).normalized(), true) -
+                                    0.018 * std::abs(up));
+        radius += (1 - kPressed) * std::max(0.0, ear - radius);
+    }
     return d.y() < kBelow && radius > kNeck_m ? 0 : radius;
 }
 
@@ -82,6 +87,13 @@ double LockGround::length_m(const Vec3& d) const {
                  side = d.x() * d.x() / std::max(d.x() * d.x() + d.z() * d.z(), 1e-9);
     return 1e-3 * (top * style_.top_mm +
                    (1 - top) * (side * style_.side_mm + (1 - side) * style_.back_mm));
+}
+
+double LockGround::wave_phase(const Vec3& d) const {
+    // Locks that lie side by side wave together: by their way from the parting, and a little by chance.
+    const double from_m =
+        0.1 * std::abs(std::asin(std::clamp(d.x(), -1.0, 1.0)) - parting_m_ / 0.1);
+    return from_m / (1e-3 * style_.pitch_mm) + 0.35 * std::sin(7 * d.z() + 3 * d.y());
 }
 
 bool LockGround::in_fringe(const Vec3& d) const {
@@ -165,8 +177,10 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
     if (style_.flow == HairFlow::kParting && !style_.hangs)
         length *= 0.3 + 0.7 * ramp(kNape_m, 0.0, head_.radius_m(d, false) * d.y());
     length = std::min(length, longest_m);
-    const double turn = 2 * std::numbers::pi * random.next(), stray = random.next() - 0.5,
-                 cut = tips_m_ + 0.016 * (random.next() - 0.5);
+    const double phase = random.next(),
+                 turn = 2 * std::numbers::pi *
+                        (style_.flow == HairFlow::kParting ? wave_phase(d) + 0.12 * phase : phase),
+                 stray = random.next() - 0.5, cut = tips_m_ + 0.016 * (random.next() - 0.5);
     const double cap = cap_m(d), layer = 1e-3 * style_.layers_mm * guide.layer,
                  loft = 1e-3 * style_.loft_mm;
     const bool tuft = style_.flow == HairFlow::kRadial, fringe = in_fringe(d);
@@ -208,7 +222,7 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
         if (!tuft) {
             const bool free = p.y() < loose_m && style_.hangs;
             // Hanging hair turns in towards the neck above its tips.
-            const double in = 1.1 * ramp(cut + kTurnedIn_m, cut, p.y());
+            const double in = 0.7 * ramp(cut + kTurnedIn_m, cut, p.y());
             const Vec3 onward = free ? Vec3((0.12 - in) * v.x() - in * out.x(), -1,
                                             (0.12 - in) * v.z() - in * out.z())
                                      : way_at(p);
@@ -227,6 +241,8 @@ LockGuide LockGround::guide(const Vec3& d, RandomSequence& random, double longes
                          (std::max(cap_m(now) - 1e-3 * style_.sunk_mm, 0.0) + lies * layer) * rise,
                      most = least + loft + (p.y() < loose_m ? 0.05 : 0.0);
         const double r = (p - centre).norm();
+        // Hair that meets the neck is hidden behind it.
+        if (style_.hangs && skin > 0 && now.y() < kAtNeck && r < least - 0.001) break;
         const double kept = skin > 0 ? std::clamp(r, least, most) : r;
         p = centre + kept * now;
         if (kept != r) v = across_plane(v, now).normalized();

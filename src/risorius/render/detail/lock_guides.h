@@ -51,6 +51,8 @@ class LockGround {
 
   private:
     double length_m(const Vec3& direction) const;
+    /// Of the waves of combed hair that grows there, in turns
+    double wave_phase(const Vec3& direction) const;
     /// Whether the hair that grows there is combed over the forehead.
     bool in_fringe(const Vec3& direction) const;
     /// Distance from the centre to the skin that hair lies on, or 0 where it lies on none

@@ -14,13 +14,21 @@
 namespace risorius::render {
 namespace {
 
-constexpr int kLockFloats = 14;
+constexpr int kLockFloats = 16;
 /// A lock faces away where the cosine of its outside and the way to the camera is below this
 constexpr double kTurnedAway = -0.25;
+
+/// Whether some of its surroundings are left out as gaps between hairs.
+bool is_thin(const HairVertex& v) { return v.across != 0 || v.open > 0; }
 
 ShaderConstants with_tones(const Appearance& appearance, ShaderConstants constants) {
     constants.set("hair_tone", linear_from_srgb(appearance.hair_tone));
     constants.set("white_tone", linear_from_srgb(kWhiteHair));
+    // Combed locks that lie over and under each other would shade each other in patches.
+    const LockStyle* style = lock_style(appearance.hair_style);
+    constants.set("own_shadow", style && style->flow == HairFlow::kParting ? 0.014 : 0.004);
+    // Tight curls mirror in all directions.
+    constants.set("mirrors", style && style->flow == HairFlow::kRadial ? 0.4 : 1.0);
     constants.set("has_white", white_share(appearance) > 0);
     return constants;
 }
@@ -33,7 +41,9 @@ LockLayer::LockLayer(const Scene& scene, Hair hair, const Camera& camera,
       rest_(scene.rest),
       camera_(camera.eye_point()),
       program_("locks", with_tones(scene.appearance, constants).in(lock_vertex_shader()),
-               with_tones(scene.appearance, constants).in(lock_shader(layer))) {
+               with_tones(scene.appearance, constants).in(lock_shader(layer, false))),
+      thin_program_("thin locks", with_tones(scene.appearance, constants).in(lock_vertex_shader()),
+                    with_tones(scene.appearance, constants).in(lock_shader(layer, true))) {
     if (empty()) return;
     GLint outer = 0;
     glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &outer);
@@ -47,7 +57,8 @@ LockLayer::LockLayer(const Scene& scene, Hair hair, const Camera& camera,
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
     GLuint location = 0;
     std::size_t offset = 0;
-    for (const int size : {3, 3, 3, 2, 3}) {  // position, along, out, strand, light-tone-grey
+    for (const int size :
+         {3, 3, 3, 2, 3, 2}) {  // position, along, out, strand, light-tone-grey, thin
         glEnableVertexAttribArray(location);
         glVertexAttribPointer(location++, size, GL_FLOAT, GL_FALSE, kLockFloats * sizeof(float),
                               reinterpret_cast<const void*>(offset * sizeof(float)));
@@ -74,7 +85,8 @@ void LockLayer::upload(const Pose& pose) {
                    along = posed.turned * v.along, out = posed.turned * v.out;
         for (const Vec3* three : {&p, &along, &out})
             for (int k = 0; k < 3; ++k) vertices_.push_back(static_cast<float>((*three)[k]));
-        for (const double one : {v.strand.x(), v.strand.y(), v.lit, v.tone, v.grey})
+        for (const double one :
+             {v.strand.x(), v.strand.y(), v.lit, v.tone, v.grey, v.across, v.open})
             vertices_.push_back(static_cast<float>(one));
     }
     choose(posed);
@@ -110,6 +122,7 @@ void LockLayer::choose(const PosedHair& posed) {
         return false;
     };
     chosen_.clear();
+    whole_.clear();
     std::vector<bool> seen;
     for (const HairPiece& piece : hair_.pieces) {
         seen.assign(piece.vertices, true);
@@ -124,10 +137,17 @@ void LockLayer::choose(const PosedHair& posed) {
         for (std::size_t i = 0; i < piece.indices; i += 3) {
             const unsigned* corner = hair_.triangles.data() + piece.first_index + i;
             if (seen[corner[0] - piece.first_vertex] || seen[corner[1] - piece.first_vertex] ||
-                seen[corner[2] - piece.first_vertex])
-                chosen_.insert(chosen_.end(), corner, corner + 3);
+                seen[corner[2] - piece.first_vertex]) {
+                const bool thin = is_thin(hair_.vertices[corner[0]]) ||
+                                  is_thin(hair_.vertices[corner[1]]) ||
+                                  is_thin(hair_.vertices[corner[2]]);
+                std::vector<unsigned>& into = thin ? chosen_ : whole_;
+                into.insert(into.end(), corner, corner + 3);
+            }
         }
     }
+    thin_ = chosen_.size();
+    chosen_.insert(chosen_.end(), whole_.begin(), whole_.end());
 }
 
 void LockLayer::draw_casters() const {
@@ -142,10 +162,14 @@ void LockLayer::draw() const {
     if (empty()) return;
     glActiveTexture(GL_TEXTURE0 + kStrandUnit);
     glBindTexture(GL_TEXTURE_2D, strands_);
-    program_.use();
     glBindVertexArray(array_);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, elements_);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(chosen_.size()), GL_UNSIGNED_INT, nullptr);
+    thin_program_.use();
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(thin_), GL_UNSIGNED_INT, nullptr);
+    // Without gaps, depth is tested before the shader: what these hide costs nothing.
+    program_.use();
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(chosen_.size() - thin_), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(thin_ * sizeof(unsigned)));
 }
 
 void LockLayer::touch(const Eigen::Matrix4f& clip_from_world, PictureCells& cells) {

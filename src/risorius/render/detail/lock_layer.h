@@ -44,10 +44,12 @@ class LockLayer {
     Hair hair_;
     Points rest_;
     Vec3 camera_;
-    GlProgram program_;
+    GlProgram program_, thin_program_;
     std::vector<float> vertices_;
-    std::vector<unsigned> chosen_;
-    std::vector<ClipBox> boxes_;  ///< of the chosen triangles
+    std::vector<unsigned> chosen_;  ///< triangles; first those with single hairs
+    std::size_t thin_ = 0;          ///< indices of these
+    std::vector<unsigned> whole_;   ///< the others, while they are chosen
+    std::vector<ClipBox> boxes_;    ///< of the chosen triangles
     GLuint array_ = 0, buffer_ = 0, elements_ = 0, casters_ = 0, sampled_ = 0, strands_ = 0;
 };
 

@@ -23,10 +23,17 @@ double soft_step(double from, double to, double x) {
     return t * t * (3 - 2 * t);
 }
 
-/// Half the width of a lock, as a share, from the root (0) to the tip (1).
-double taper(double s, bool edge, double tip) {
+/// A lock is thin over so much of its length, and so thin at its tip.
+constexpr double kThinEnd_m = 0.030, kThinEnd = 0.55;
+/// It has its full width so far from the root.
+constexpr double kFullFrom_m = 0.022;
+/// Locks of layers up to this one have no gaps.
+constexpr double kInner = 0.45;
+
+/// Half the width of a lock, as a share, from the root (0) to the tip (1); it is full from `full` on.
+double taper(double s, bool edge, double tip, double full) {
     const double root = edge ? 0.06 : 0.10;
-    return (root + (1 - root) * soft_step(0, 0.22, s)) * (1 - (1 - tip) * soft_step(0.5, 1.0, s));
+    return (root + (1 - root) * soft_step(0, full, s)) * (1 - (1 - tip) * soft_step(0.5, 1.0, s));
 }
 
 /// The way of combed hair, for its light. Beside the parting it turns from one side to the other, or there would be a step of light.
@@ -63,6 +70,7 @@ void add_ends(std::vector<HairVertex> end, double length_m, RandomSequence& rand
         HairVertex tip = between(middle);
         tip.offset += length * (tip.along + stray * (last.offset - first.offset).normalized());
         tip.strand.y() += length / kStrandsAlong_m;
+        tip.open = 1;
         hair.vertices.push_back(tip);
         hair.triangles.insert(hair.triangles.end(), {at, at + 1, at + 2});
     }
@@ -105,6 +113,11 @@ void add_lock(const LockGuide& guide, const LockStyle& style, double parting_m, 
     const double shade = combed ? 0.06 : 0.16;  // from lock to lock
     const double half = 0.5e-3 * style.width_mm * guide.width * (0.75 + 0.5 * chance.tone);
     double along_m = kStrandsAlong_m * chance.along;
+    double whole_m = 0;
+    for (std::size_t i = 1; i < rows; ++i)
+        whole_m += (guide.points[i] - guide.points[i - 1]).norm();
+    const double full = std::min(0.22, kFullFrom_m / std::max(whole_m, 1e-6));
+    const double thin_from = std::max(1 - kThinEnd_m / std::max(whole_m, 1e-6), 0.4);
     hair.roots.push_back(guide.root);
     for (std::size_t i = 0; i < rows; ++i) {
         const double s = static_cast<double>(i) / static_cast<double>(rows - 1);
@@ -113,7 +126,7 @@ void add_lock(const LockGuide& guide, const LockStyle& style, double parting_m, 
                 .normalized();
         const Vec3 side = along.cross(guide.out[i]).normalized(), out = side.cross(along);
         if (i > 0) along_m += (guide.points[i] - guide.points[i - 1]).norm();
-        const double width = half * taper(s, guide.edge, style.tip);
+        const double width = half * taper(s, guide.edge, style.tip, full);
         // Deep between the roots it is dark.
         const double root_lit = combed ? 0.95 : guide.edge ? 0.85 : 0.68;
         const double lit = (root_lit + (1 - root_lit) * soft_step(0, 0.4, s)) *
@@ -139,6 +152,11 @@ void add_lock(const LockGuide& guide, const LockStyle& style, double parting_m, 
             v.tone =
                 (1 + shade * (chance.tone - 0.5)) * (combed ? 0.92 + 0.12 * s : 0.85 + 0.25 * s);
             v.grey = guide.grey;
+            // What lies deeper is seen through gaps only.
+            if (!guide.single && guide.layer > kInner) {
+                v.across = at;
+                v.open = kThinEnd * soft_step(thin_from, 1, s);
+            }
             lock.push_back(v);
         }
     }
@@ -175,11 +193,12 @@ void add_lock(const LockGuide& guide, const LockStyle& style, double parting_m, 
 
 /// Rows of the cap from the whorl outwards, columns around it.
 constexpr int kCapRows = 16, kCapColumns = 120;
+constexpr int kThinRows = 2;  ///< at the border
 
 /// Marks the skin inside the border of the cap, which reaches so far from the whorl in each column, rad.
 void cover_skin(const LockGround& ground, const Scene& scene, const Vec3& ahead, const Vec3& right,
                 const std::vector<double>& reach, Hair& hair) {
-    constexpr double kInside = 0.06, kDeep_m = 0.004;
+    constexpr double kInside = 0.03, kDeep_m = 0.004;
     hair.covered.assign(static_cast<std::size_t>(scene.rest.rows()), 0);
     for (const Surface& surface : scene.surfaces) {
         if (surface.material != Material::kSkin) continue;
@@ -192,7 +211,8 @@ void cover_skin(const LockGround& ground, const Scene& scene, const Vec3& ahead,
             const auto column =
                 static_cast<std::size_t>((turn - std::floor(turn)) * kCapColumns) % kCapColumns;
             const double angle = std::acos(std::clamp(d.dot(ground.whorl()), -1.0, 1.0));
-            if (angle < std::min(reach[column], reach[column + 1]) - kInside)
+            const double border = std::min(reach[column], reach[column + 1]);
+            if (angle < border * (kCapRows - kThinRows) / kCapRows - kInside)
                 hair.covered[static_cast<std::size_t>(v)] = 1;
         }
     }
@@ -200,7 +220,7 @@ void cover_skin(const LockGround& ground, const Scene& scene, const Vec3& ahead,
 
 void add_cap(const LockGround& ground, const LockStyle& style, const Scene& scene, Hair& hair) {
     if (style.ring) return;
-    constexpr double kInside_m = 0.0055, kTurn = 0.012;
+    constexpr double kInside_m = 0.002, kTurn = 0.012;
     const Vec3 pole = ground.whorl(), centre = ground.head().centre(),
                right = pole.cross(Vec3::UnitZ()).normalized(), ahead = right.cross(pole);
     if (!ground.grows(pole, kInside_m)) return;
@@ -237,8 +257,9 @@ void add_cap(const LockGround& ground, const LockStyle& style, const Scene& scen
             v.strand = style.flow == HairFlow::kParting
                            ? Vec2(at.z() / kStrandsAcross_m,
                                   std::abs(at.x() - ground.parting_m()) / kStrandsAlong_m)
-                           : Vec2(4.0 * column / kCapColumns * 2, 0.1 * angle / kStrandsAlong_m);
+                           : Vec2(18.0 * column / kCapColumns, 0.1 * angle / kStrandsAlong_m);
             v.lit = style.lit_cap;
+            v.open = soft_step(kCapRows - kThinRows, kCapRows, row);
             hair.vertices.push_back(v);
         }
     }

@@ -22,6 +22,8 @@ struct HairVertex {
     double lit = 1;        ///< share of the light that reaches it between the locks
     double tone = 1;       ///< factor of the hair's tone
     double grey = 0;       ///< added share of white hairs
+    double across = 0;     ///< place across the lock, -1..1; its sides are single hairs
+    double open = 0;       ///< 0..1, how thin the hair is along the lock or the cap; 1: none
 };
 
 /// A lock or the cap: a range of triangles and of vertices.

@@ -86,6 +86,7 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
     const LockStyle* style = lock_style(scene.appearance.hair_style);
     const bool bordered = has_cap(scene.appearance, plan) && style->flow != HairFlow::kParting;
     if (scalp_hair <= 0 || plan.hairline[0] > 1) return;
+    const double outside = has_cap(scene.appearance, plan) && !bordered ? 0.0 : 0.22;
     // Roots follow the low-discrepancy sequence of the plastic number (Roberts 2018); plain random points leave bald spots and
     // clusters.
     constexpr int kHairs = 170000;
@@ -105,7 +106,7 @@ void scalp(const Scene& scene, const SkinPlan& plan, const Vec3& centre, const E
         // Over forehead and temples roots stand closer, and break the border of a cap of locks.
         const double front = bordered ? std::clamp((root.y() - 0.5) / 0.08, 0.0, 1.0) : 0.0;
         const double inside = (1 + front) * (radius - hairline_radius(plan, root)) / 0.034;
-        const double thick = std::clamp(inside + 0.22 + 0.38 * front, 0.0, 1.0);
+        const double thick = std::clamp(inside + outside + 0.38 * front, 0.0, 1.0);
         if (keep > thick * thick * (3 - 2 * thick)) continue;
         if (on_bald_crown(plan, root, centre)) continue;
         Vec2 away = root - whorl;

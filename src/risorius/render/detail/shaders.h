@@ -101,7 +101,7 @@ std::string lash_shader();
 /// What is added to the distance of hair from the camera in the skin layer, m: half of what its distances wrap around at.
 constexpr double kHairBeyond_m = 0.128;
 std::string lock_vertex_shader();
-std::string lock_shader(bool layer);  ///< `layer`: to be stored and looked up as skin is
+std::string lock_shader(bool layer, bool gaps);  ///< `layer`: to be stored and looked up as skin is
 std::string garment_vertex_shader();
 std::string garment_shader(bool layer);  ///< the same
 std::string strand_vertex_shader();

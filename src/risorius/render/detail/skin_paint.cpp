@@ -30,7 +30,7 @@ void set_plan(const GlProgram& program, const SkinPlan& plan, const Appearance& 
     glUniform1f(program.location("ring"), static_cast<float>(plan.ring_m));
     // Below a cap of locks the skin is dark up to its border, or that would show as a line.
     if (has_cap(appearance, plan))
-        glUniform2f(program.location("hair_begins"), -0.012F, 0.014F);
+        glUniform2f(program.location("hair_begins"), -0.004F, 0.012F);
     else
         glUniform2f(program.location("hair_begins"), -0.010F, 0.042F);
     glUniform1f(program.location("seed"), static_cast<float>(appearance.seed % 1000));

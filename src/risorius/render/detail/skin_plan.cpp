@@ -297,7 +297,7 @@ bool has_cap(const Appearance& appearance, const SkinPlan& plan) {
 }
 
 double scalp_paint(const Appearance& appearance) {
-    constexpr double kBetweenLocks = 0.85;
+    constexpr double kBetweenLocks = 0.97;
     return lock_style(appearance.hair_style) ? std::max(appearance.scalp_hair, kBetweenLocks)
                                              : appearance.scalp_hair;
 }

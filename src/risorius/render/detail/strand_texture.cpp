@@ -2,6 +2,7 @@
 #include "risorius/render/detail/strand_texture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -18,14 +19,30 @@ std::vector<std::uint8_t> strand_texels(unsigned seed, double white_share) {
     RandomSequence random(seed * 6007U + 41U);
     double phase[4];
     for (double& one : phase) one = 2 * std::numbers::pi * random.next();
+    // Hairs that cling together, a millimetre wide: seen where single ones are not
+    constexpr int kClumps = 52;
+    std::array<std::array<double, kClumps>, 2> clump;
+    for (auto& row : clump)
+        for (double& one : row) one = random.next() - 0.5;
+    const auto clumped = [&](double u, double v) {
+        const double at = (u - std::floor(u)) * kClumps, t = at - std::floor(at);
+        const auto a = static_cast<std::size_t>(at) % kClumps, b = (a + 1) % kClumps;
+        const double share = 0.5 + 0.5 * std::sin(v);
+        const auto of = [&](std::size_t k) {
+            return share * clump[0][k] + (1 - share) * clump[1][k];
+        };
+        const double s = t * t * (3 - 2 * t);
+        return (1 - s) * of(a) + s * of(b);
+    };
     for (int y = 0; y < kAlong; ++y)
         for (int x = 0; x < kAcross; ++x) {
             const double v = 2 * std::numbers::pi * y / kAlong,
                          u = 2 * std::numbers::pi * x / kAcross + 0.05 * std::sin(v + phase[3]);
             bright[static_cast<std::size_t>(y) * kAcross + static_cast<std::size_t>(x)] =
-                static_cast<float>(0.46 + 0.06 * std::sin(5 * u + phase[0]) +
-                                   0.05 * std::sin(13 * u + phase[1]) +
-                                   0.05 * std::sin(29 * u + 2 * std::sin(v) + phase[2]));
+                static_cast<float>(0.46 + 0.05 * std::sin(5 * u + phase[0]) +
+                                   0.03 * std::sin(13 * u + phase[1]) +
+                                   0.05 * std::sin(29 * u + 2 * std::sin(v) + phase[2]) +
+                                   0.34 * clumped(u / (2 * std::numbers::pi), v));
         }
     for (int i = 0; i < kStrands; ++i) {
         const double at = random.next() * kAcross, from = random.next() * kAlong,

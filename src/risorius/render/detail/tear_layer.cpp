@@ -33,6 +33,7 @@ std::vector<unsigned> tear_ribbons(const std::array<std::vector<SkinPlace>, 2>& 
 TearLayer::TearLayer(const Scene& scene, const ShaderConstants& constants)
     : lines_{plan_tear_line(scene, 0), plan_tear_line(scene, 1)},
       eyes_(scene.eyes),
+      share_(scene.appearance.complexion > 0 ? 0.45 : 1),
       program_("tears", constants.in(tear_vertex_shader()), constants.in(tear_shader())),
       triangles_(tear_ribbons(lines_), {3, 3, 1}) {}  // position, normal, fraction of the light
 
@@ -68,7 +69,7 @@ void TearLayer::upload(const Pose& pose, const PosedMarks& marks) {
             Vec3 up = eye == 0 ? out.cross(along) : along.cross(out);
             up.normalize();
             const double from_end = std::min(i, at.size() - 1 - i) / 5.0;
-            const double fraction = wet * std::clamp(from_end, 0.0, 1.0);
+            const double fraction = share_ * wet * std::clamp(from_end, 0.0, 1.0);
             const Vec3 places[kTearRows] = {at[i] - kTearOntoLid_m * up,
                                             at[i] + 0.3 * kTearOntoEye_m * up,
                                             at[i] + kTearOntoEye_m * up};

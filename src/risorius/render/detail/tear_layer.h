@@ -29,6 +29,8 @@ class TearLayer {
   private:
     std::array<std::vector<SkinPlace>, 2> lines_;  ///< left eye, right eye
     std::array<Eye, 2> eyes_;
+    double
+        share_;  ///< of the light that the line mirrors; less where faces have a complexion of their own
     GlProgram program_;
     StreamedTriangles triangles_;
 };
