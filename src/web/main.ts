@@ -54,7 +54,10 @@ const stage = new Stage(byId("stage"), {
       stiffness_n_per_m: Number(byId<HTMLSelectElement>("stiffness").value),
       record: byId<HTMLInputElement>("record").checked,
     }),
-  move: (pull, point_m) => moves.set(pull, point_m),
+  move: (pull, point_m) => {
+    moves.set(pull, point_m);
+    if (performance.now() - sentMoves_ms > step_ms) sendMoves();
+  },
   end: (pull) => {
     sendMoves();
     engine.send({ type: "pull_end", pull });
@@ -62,9 +65,12 @@ const stage = new Stage(byId("stage"), {
   pick: (muscle) => channels.reveal(muscle),
 });
 
-// The pointer may move more often than the face: one message a picture.
+// The pointer may move more often than the face: one message a step, and not only when there is a picture.
+const step_ms = 1000 / 60;
 const moves = new Map<number, Vec>();
+let sentMoves_ms = 0;
 function sendMoves(): void {
+  if (moves.size > 0) sentMoves_ms = performance.now();
   for (const [pull, point_m] of moves) engine.send({ type: "pull_to", pull, point_m });
   moves.clear();
 }

@@ -173,7 +173,7 @@ void draw_hair(unsigned seed, const std::string& ancestry, const DesignTables& t
     const double seems = person.age + 5 * std::clamp(draw.normal(), -2.0, 2.0);
     person.hairdo.age_lines = to_hundredths(std::clamp((seems - 22) / 30, 0.0, 1.0));
     // The colour grows uneven with sun and years; shares from what a reader of ages makes of pictures.
-    person.hairdo.mottling = to_hundredths(0.85 * std::clamp(0.4 + (seems - 22) / 60, 0.3, 1.0));
+    person.hairdo.mottling = to_hundredths(0.95 * std::clamp(0.4 + (seems - 22) / 60, 0.3, 1.0));
     // In the mean 26 % of grey hair at 53, 32 % at 58, 40 % at 63 years (Panhard et al. 2012).
     const double greying = person.age + 10 * std::clamp(draw.normal(), -2.0, 2.0);
     double grey = std::clamp((greying - 40) / 50, 0.0, 1.0);
