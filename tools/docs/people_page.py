@@ -163,10 +163,10 @@ def viewers():
     pairs = told["pairs"]
     lines += [
         "",
-        f"Four such viewers saw 10 pairs each, one picture of a person as drawn first, with a shaven head, and one of a named person of now, and chose the more "
+        f"Four such viewers first saw 10 pairs each, one picture of a person as drawn first, with a shaven head, and one of a named person of now, and chose the more "
         f"believable one: {pairs['now_preferred']} of {pairs['asked']} times that of now; 9 of 10 is the aim. Two viewers saw the hair before it was last mended, two "
         "after: 5 of 20 times each. For those of now they named skin, folds, brows and character; against them, hair like a wig of ribbons, mouths "
-        "that are pinched or stand out, square jaws, and beards like patches. The heads of then look like wax, they said, and like one person. Hair and proportions were changed after that; nobody has looked at them since.",
+        "that are pinched or stand out, square jaws, and beards like patches. The heads of then look like wax, they said, and like one person. Hair and proportions were changed after that. Two more viewers saw 20 new pairs, and chose the person of now 4 times (ravi, lakshmi, yuki, sofia): long hair is still a stiff wig with chopped ends for them, short hair a cap or a tint, beards are stamped on, and lines are carved.",
         "",
         "Upper row: eight people that the program drew at first. Lower row: the people of seeds 1 to 8.",
         "",
