@@ -6,7 +6,7 @@ import { Box3, Vector3 } from "three";
 
 import type { Vec } from "./protocol.js";
 
-interface NamedCamera {
+export interface NamedCamera {
   name: string;
   azimuth_deg: number;
   elevation_deg?: number;

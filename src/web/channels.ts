@@ -221,8 +221,9 @@ export class Channels {
     this.pending.clear();
   }
 
-  /// Makes a key of what the panel shows, also where the picture of the last change is still to come.
+  /// Makes a key of what the panel shows, also where the picture of the last change is still to come, or where nothing was changed.
   makeKey(name: string): void {
+    if (!(name in this.overrides)) this.pending.set(name, this.scripted(name));
     this.sendPending();
     this.actions.key(name);
   }

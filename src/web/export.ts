@@ -43,6 +43,11 @@ export class Export {
     byId("export-start").addEventListener("click", () => void this.start(false));
     byId("export-replace").addEventListener("click", () => void this.start(true));
     byId("export-cancel").addEventListener("click", () => void this.actions.ask({ type: "cancel" }));
+    this.dialog.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter" || !(event.target instanceof HTMLInputElement) || byId<HTMLButtonElement>("export-start").disabled) return;
+      event.preventDefault();
+      void this.start(false);
+    });
     byId("export-close").addEventListener("click", () => this.dialog.close());
     byId("export-out").addEventListener("input", () => (this.names[this.what] = byId<HTMLInputElement>("export-out").value));
     const camera = byId<HTMLSelectElement>("export-camera");

@@ -36,6 +36,7 @@ export class Files {
   private askName(): void {
     const name = byId<HTMLInputElement>("save-name");
     name.value = this.actions.file() ?? "script.json";
+    this.dialog.returnValue = ""; // of the last time
     this.dialog.showModal();
     name.select();
   }

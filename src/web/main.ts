@@ -141,6 +141,7 @@ const newHead = new NewHead({
 const smileTest = new SmileTest({
   override: (channel, value) => engine.send({ type: "override", channel, value }),
   say: (text) => say(text, true, 12),
+  reveal: (channel) => channels.reveal(channel),
 });
 
 function edit(edits: Edit[], gesture?: string): void {
@@ -158,6 +159,7 @@ function undo(): void {
 function takeWelcome(message: Welcome): void {
   welcome = message;
   document.body.dataset.kind = message.kind ?? "face";
+  offerWhatIsThere(message.kind === "body");
   keeper.useWelcome(message);
   byId("file-name").textContent = message.kind === "body" ? message.rig : (message.file ?? `new script for ${message.rig}`);
   byId("folder").textContent = message.folder;
@@ -172,6 +174,13 @@ function takeWelcome(message: Welcome): void {
   if (!message.steers) say("Another page steers; this one looks.");
   else if (message.mesh) newHead.show(message.folder, message.mesh);
   else if (message.start) engine.send({ type: "files" });
+}
+
+/// A soft body has neither muscles nor eyes.
+function offerWhatIsThere(isBody: boolean): void {
+  for (const option of byId<HTMLSelectElement>("sight").options) option.hidden = option.disabled = isBody && !["skin", "wire"].includes(option.value);
+  for (const id of ["camera", "second-camera"])
+    for (const option of byId<HTMLSelectElement>(id).options) option.hidden = option.disabled = isBody && cameras[Number(option.value)].middle !== undefined;
 }
 
 /// Documents may come faster than pictures: the last one is shown.
@@ -418,6 +427,7 @@ function addEvent(choice: string): void {
   if (choice === "say") {
     // Browsers let a page sound only after a gesture: this is one.
     speech.allow();
+    byId<HTMLDialogElement>("say-dialog").returnValue = ""; // of the last time
     byId<HTMLDialogElement>("say-dialog").showModal();
     byId<HTMLInputElement>("say-text").select();
     return;
@@ -470,6 +480,8 @@ byId<HTMLDialogElement>("say-dialog").addEventListener("close", () => {
   speech.allow();
   engine.send({ type: "say", text: byId<HTMLInputElement>("say-text").value, voice: byId<HTMLInputElement>("say-voice").value });
 });
+// Not the first button of a form: that is the one which Enter presses.
+for (const button of document.querySelectorAll<HTMLButtonElement>("[data-close]")) button.addEventListener("click", () => button.closest("dialog")!.close());
 const cameraSelect = byId<HTMLSelectElement>("camera");
 cameras.forEach(({ name }, index) => {
   cameraSelect.append(h("option", { value: index }, `${index + 1}  ${name}`));

@@ -187,6 +187,7 @@ export class NewHead {
     let found = { count: 0, toCheck: 0 };
     this.do(() => (found = this.model!.useFound(message.landmarks)));
     this.next();
+    this.stage?.focus(); // Enter takes a landmark
     if (found.toCheck > 0) this.tell(`${found.count} landmarks found. Some that a rig needs are to be checked: drag them where they belong, or Enter takes them.`);
     else this.tell(`${found.count} landmarks found. You can fit.`);
   }

@@ -132,6 +132,10 @@ export class NewHeadStage {
     this.dirty = true;
   }
 
+  focus(): void {
+    this.renderer.domElement.focus({ preventScroll: true });
+  }
+
   private look(target: THREE.Vector3, direction: THREE.Vector3, height: number): void {
     // On an upright screen, the width of the head decides.
     const distance = height / 2 / Math.tan((viewAngle_deg * Math.PI) / 360) / Math.min(1, this.camera.aspect / usualAspect);

@@ -11,6 +11,7 @@ const corners = { left: "ch_l", right: "ch_r" };
 export interface SmileActions {
   override(channel: string, value: number): void;
   say(text: string): void;
+  reveal(channel: string): void;
 }
 
 export class SmileTest {
@@ -28,7 +29,10 @@ export class SmileTest {
   useScene(scene: Scene): void {
     this.scene = this.wanted ? scene : null;
     this.rests = false;
-    if (this.wanted) this.actions.override(unit, 1);
+    if (this.wanted) {
+      this.actions.reveal(unit);
+      this.actions.override(unit, 1);
+    }
     this.wanted = false;
   }
 

@@ -80,6 +80,13 @@ await test("a slider is an override, and K makes it a key that undo takes back",
   await row.locator("input[type=number]").blur();
   await page.locator("#undo").click();
   await until(page, () => window.studio.script().script.channels.AU4 === undefined);
+  // Where nothing was moved, it makes a key of what is shown.
+  await row.locator("input[type=number]").press("k");
+  await until(page, () => window.studio.script().script.channels.AU4 !== undefined);
+  assert.deepEqual((await scriptOf(page)).channels.AU4, { keys: [[0, 0]] });
+  await row.locator("input[type=number]").blur();
+  await page.locator("#undo").click();
+  await until(page, () => window.studio.script().script.channels.AU4 === undefined);
   assert.deepEqual(await scriptOf(page), before);
 });
 

@@ -326,6 +326,11 @@ await test("landmarks are found in pictures of the mesh, and what is not sure is
   assert.equal(places[chosen].found, "proposed", "the first that is not sure is asked for");
   assert.ok(!(await page.locator("#newhead-fit").isDisabled()));
   await shot(page, "newhead-found");
+  const toCheck = () => page.locator("#newhead-count").textContent();
+  const all = await toCheck();
+  await page.keyboard.press("Enter");
+  assert.notEqual(await toCheck(), all, "Enter takes the first");
+  await page.locator("#newhead-undo").click();
   await page.locator("#newhead-undo").click();
   await until(page, () => Object.keys(window.studio.newHead().places).length === 0);
 });

@@ -52,6 +52,15 @@ await test("it pauses, begins again, and says what it cannot do", async () => {
   await axe(page, "body");
 });
 
+await test("on a phone the body has the whole width", async () => {
+  await page.setViewportSize({ width: 390, height: 780 });
+  const stage = await page.locator("#stage").boundingBox();
+  assert.ok(stage.width > 380 && stage.height > 500, `${stage.width} x ${stage.height}`);
+  assert.ok(await page.locator("#play").isVisible());
+  assert.deepEqual(await page.locator("#sight option:not([hidden])").allTextContents(), ["skin", "wire"]);
+  await page.setViewportSize({ width: 900, height: 620 });
+});
+
 await test("of a mesh, the page for a new head is shown", async () => {
   await page.close();
   await stop();
@@ -67,6 +76,14 @@ await test("without a file, the samples are shown, and one is opened", async () 
   page = await open(await startWith(anyPort));
   await page.locator("#open-dialog").waitFor({ state: "visible" });
   await axe(page, "#open-dialog");
+  await page.locator("#open-dialog button", { hasText: "Cancel" }).click();
+  await page.keyboard.press("Control+s");
+  await page.locator("#save-name").fill("mine.json");
+  await page.keyboard.press("Enter");
+  await until(page, () => document.querySelector("#file-name").textContent === "mine.json");
+  assert.equal(JSON.parse(readFileSync(join(folder, "mine.json"), "utf8")).format, "risorius-script");
+  await page.locator("#open").click();
+  await page.locator("#open-dialog").waitFor({ state: "visible" });
   await page.locator("#samples button", { hasText: "smile" }).click();
   await until(page, () => window.studio.script().script.events?.[0]?.expression === "happiness");
   assert.ok(!(await page.locator("#open-dialog").isVisible()));
