@@ -51,8 +51,8 @@ std::unique_ptr<io::MorphModel> MorphHair::bald_;
 TEST_F(MorphHair, EveryStyleIsANodeBelowTheHeadWithItsCards) {
     // Triangles of the cards and of the cap on the adult
     const std::map<std::string, std::pair<long, long>> kTriangles{
-        {"crop", {7012, 3720}},     {"short_parted", {5590, 3720}}, {"curly_short", {15148, 3720}},
-        {"afro", {15934, 3720}},    {"bob", {7658, 3720}},          {"long_tied", {18392, 3720}},
+        {"crop", {7000, 3720}},     {"short_parted", {5582, 3720}}, {"curly_short", {18786, 3720}},
+        {"afro", {20868, 3720}},    {"bob", {7192, 3720}},          {"long_tied", {18288, 3720}},
         {"bald_fringe", {2900, 0}},
     };
     for (const std::string& style : render::hair_style_names()) {
