@@ -17,16 +17,13 @@
 #include "risorius/talk/say_event.h"
 #include "risorius/view/document.h"
 #include "tools/risorius/project_files.h"
+#include "tools/risorius/studio_page.h"
 
 namespace risorius::cli {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr long kTicksWithoutPage = 60 * 60;  // a minute
-constexpr int kFirstCredit = 2;
-constexpr std::size_t kMostWaiting = 8;  // messages; a page that does not read gets no poses
 
 Json new_script(const fs::path& rig) {
     return json_object({{"format", "risorius-script"},

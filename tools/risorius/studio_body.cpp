@@ -9,18 +9,11 @@
 
 #include "risorius/core/json_object.h"
 #include "risorius/core/json_text.h"
+#include "tools/risorius/studio_page.h"
 
 namespace risorius::cli {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-constexpr long kTicksAlone = 60 * 60;  // a minute
-constexpr int kCredit = 2;
-constexpr std::size_t kMostUnread = 8;  // messages; a page that does not read gets no poses
-
-}  // namespace
 
 StudioBody::StudioBody(const fs::path& file)
     : file_(fs::weakly_canonical(fs::absolute(file))), session_(JsonCursor::read_file(file)) {}
@@ -32,7 +25,7 @@ void StudioBody::run(serve::WebServer& server, const std::function<bool()>& stop
         .binary = {},
         .closed = [this](serve::Peer& peer) { closed(peer); },
         .tick = [this] { tick(); }};
-    server.run(handler, [&] { return stopped() || idle_ticks_ > kTicksAlone; });
+    server.run(handler, [&] { return stopped() || idle_ticks_ > kTicksWithoutPage; });
 }
 
 StudioBody::Page* StudioBody::page_of(const serve::Peer& peer) {
@@ -42,7 +35,7 @@ StudioBody::Page* StudioBody::page_of(const serve::Peer& peer) {
 }
 
 void StudioBody::opened(serve::Peer& peer) {
-    pages_.push_back({&peer, kCredit});
+    pages_.push_back({&peer, kFirstCredit});
     ever_seen_ = true;
     idle_ticks_ = 0;
     Json welcome = json_or_null(session_.welcome());
@@ -73,7 +66,7 @@ void StudioBody::text(serve::Peer& peer, const std::string& message) {
     if (!page) return;
     const Json json = json_or_null(message);
     if (json.is_object() && json.value("type", Json()) == Json("credit")) {
-        page->credit = std::min(page->credit + 1, kCredit);
+        page->credit = std::min(page->credit + 1, kFirstCredit);
         return;
     }
     if (page != &pages_.front()) {
@@ -107,7 +100,7 @@ void StudioBody::tick() {
 /// As of a face: what a slow page misses is left out; the steps are not.
 void StudioBody::send_pose() {
     const auto ready = [](const Page& page) {
-        return page.credit > 0 && page.peer->waiting() < kMostUnread;
+        return page.credit > 0 && page.peer->waiting() < kMostWaiting;
     };
     if (!pose_waits_ || std::none_of(pages_.begin(), pages_.end(), ready)) return;
     pose_waits_ = false;

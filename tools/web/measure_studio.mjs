@@ -65,7 +65,7 @@ await ask({ type: "seek", t_s: 0 });
 await page.waitForTimeout(3000);
 
 // The pointer pulls: from its move to a pose with that hand, and to the picture of it.
-const vertex = await page.evaluate(() => {
+const held = await page.evaluate(() => {
   const scene = window.studio.scene();
   const at = scene.landmarks.ch_l;
   let [best, least] = [-1, Infinity];
@@ -73,25 +73,15 @@ const vertex = await page.evaluate(() => {
     const far = Math.hypot(...at.map((one, k) => one - scene.rest[3 * v + k]));
     if (scene.soft[v] && far < least) [best, least] = [v, far];
   }
-  return scene.vertex[best];
+  return { row: best, vertex: scene.vertex[best] };
 });
-const place = await page.evaluate((v) => window.studio.screenOf(v), vertex);
+const place = await page.evaluate((v) => window.studio.screenOf(v), held.vertex);
 await page.keyboard.down("Control");
 await page.mouse.move(place.x, place.y);
 await page.mouse.down();
 await page.waitForTimeout(500);
 const ways = await page.evaluate(
-  async ([x, y]) => {
-    const row = (() => {
-      const scene = window.studio.scene();
-      const at = scene.landmarks.ch_l;
-      let [best, least] = [-1, Infinity];
-      for (let v = 0; v < scene.vertices; v++) {
-        const far = Math.hypot(...at.map((one, k) => one - scene.rest[3 * v + k]));
-        if (scene.soft[v] && far < least) [best, least] = [v, far];
-      }
-      return best;
-    })();
+  async ([row, x, y]) => {
     const where = () => window.studio.pose().vertices[3 * row];
     const drawn = () => Number(document.querySelector("#stage").dataset.drawn);
     const canvas = document.querySelector("#stage > canvas");
@@ -114,7 +104,7 @@ const ways = await page.evaluate(
     }
     return out;
   },
-  [place.x, place.y],
+  [held.row, place.x, place.y],
 );
 for (const [k, name] of ["moved skin in the page", "its picture"].entries()) {
   const way = ways.map((one) => one[k]);
